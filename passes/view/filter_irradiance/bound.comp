@@ -8,18 +8,18 @@
 // many rays an element's deviation is a difference of light rather than noise, hence the 1.5. With SIGNED σ is not over
 // the mean, and bounds both sides.
 #include "shaders/filter/block_interpolation.glsl"
-#include "passes/view/filter_irradiance/surface.glsl"
+#include "passes/view/filter_irradiance/mean.glsl"
 #include "shaders/filter/tiles.glsl"
 #include "shaders/filter/ray_statistics.h"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = TILE, local_size_y = TILE) in;
 
-#define LAYERS (SAMPLES > 1 ? 2 : 1)
 #define DEVIATIONS 2.5            // Of an element.
 #define LEAST_RAY_DEVIATIONS 1.5  // Of a ray.
 
-uniform usampler2D surfaces;
-layout(rgba32f) uniform image2D source;  // Irradiance, W/m²; number of rays.
+layout(scalar) readonly buffer SurfacesRef { Words3 surfaces; };
+layout(scalar) readonly buffer SourceRef { Words2 source; };  // Irradiance, W/m²; number of rays.
+layout(scalar) readonly buffer MeansRef { Words1 means; };    // Of elements alone.
 layout(scalar) readonly buffer Statistics { RayStatistics data[]; } statistics;
 layout(scalar) readonly buffer BlockMeans { float data[]; } blockMeans;
 #ifdef SIGNED
@@ -60,9 +60,9 @@ void main() {
 #endif
     if (all(lessThan(uvec2(pixel), push.pixels)))
         for (int layer = 0; layer < LAYERS; ++layer) {
-            const ivec2 element = pixel + ivec2(0, layer * int(push.pixels.y));
-            const float area = areaOf(texelFetch(surfaces, element, 0));
-            const vec4 value = imageLoad(source, element);
+            const uint element = elementOf(pixel, ivec2(push.pixels), layer);
+            const float area = areaOf(surfaces.data[element]);
+            const vec4 value = unpackValues(source.data[element]);
             const float light = luminance(value.rgb);
 #ifdef SIGNED
             kept[thread] += vec3(area);
@@ -71,7 +71,10 @@ void main() {
             if (area == 0.0 || light <= 0.0) continue;
 #endif
             const float fraction = keptFraction(pixel, light, value.a);
-            if (fraction < 1.0) imageStore(source, element, vec4(fraction * value.rgb, value.a));
+            if (fraction < 1.0) {
+                source.data[element] = packValues(vec4(fraction * value.rgb, value.a));
+                means.data[element] = packOwnMean(fraction * light, value.a, area);
+            }
 #ifdef SIGNED
             excess[thread] += area * (1.0 - fraction) * value.rgb;
 #endif

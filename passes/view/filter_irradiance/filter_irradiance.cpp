@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "graph/registry.h"
+#include "passes/common/compute/large_buffer.h"
 #include "passes/common/filter/noisy_irradiance.h"
 #include "passes/common/filter/wavelet_noise.h"
 #include "passes/view/filter_irradiance/filter_irradiance_params.h"
@@ -55,7 +56,7 @@ class FilterIrradiance final : public Pass {
     /// Bounds outliers by the statistics of rays of blocks.
     void boundOutliers(PassContext& context) const;
     /// Finds by how much the light of tiles is raised, so that the filter keeps it. @param filtered irradiance.
-    void keepLight(PassContext& context, const Image& filtered) const;
+    void keepLight(PassContext& context, const LargeBuffer& filtered) const;
     /// Measures the noise of a level's input over that of independent rays.
     void measureNoise(PassContext& context, uint32_t level) const;
     /// Computes the statistics of light around each element.
@@ -113,13 +114,13 @@ class FilterIrradiance final : public Pass {
     Buffer blockMeans_;  ///< Luminance per block, W/m².
     Buffer noiseSums_;   ///< NoiseSums per tile (noise_ratio.glsl).
     Buffer noiseRatio_;  ///< By level (noise_ratio.comp).
-    // Images of elements (elements.glsl).
-    Image surfaces_;     ///< surface.glsl
-    Image reflectance_;  ///< Albedo times the surface's fraction of the pixel.
-    Image own_;          ///< What elements reflect of their own irradiance (surfaces.comp); not of residuals.
-    Image means_[2];  ///< Means of neighborhoods (mean.comp), read and written in turn; where rays' variance is known.
-    Image light_;     ///< surface_light.glsl
-    Image filtered_[2];  ///< Irradiance, W/m², and number of rays; read and written in turn by levels.
+    // Arrays of elements (elements.glsl).
+    LargeBuffer surfaces_;     ///< surface.glsl
+    LargeBuffer reflectance_;  ///< Albedo times the surface's fraction of the pixel.
+    LargeBuffer own_;          ///< What elements reflect of their own irradiance (surfaces.comp); not of residuals.
+    LargeBuffer means_[2];     ///< mean.glsl, written and read in turn by levels; where rays' variance is known.
+    LargeBuffer light_;        ///< surface_light.glsl
+    LargeBuffer filtered_[2];  ///< Irradiance, W/m², and number of rays; read and written in turn by levels.
 };
 
 void FilterIrradiance::plan(PassPlan& plan) {
@@ -138,12 +139,11 @@ void FilterIrradiance::plan(PassPlan& plan) {
             "put a filter_irradiance of stored light there");
     plan[result_].lightBounces = noisy.lightBounces;
     plan.frameImage(result_);
-    const glm::uvec3 extent{plan.frame.width, plan.frame.height * (samples > 1 ? 2 : 1), 1};
-    const ImageDesc values{VK_FORMAT_R32G32B32A32_SFLOAT, extent};
-    plan.image(surfaces_, "surfaces of pixels", {VK_FORMAT_R32G32B32A32_UINT, extent});
-    plan.image(reflectance_, "reflectance of surfaces", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
-    plan.image(light_, "statistics of light", values);
-    for (Image& level : filtered_) plan.image(level, "filtered irradiance", values);
+    const uint64_t words = sizeof(uint64_t) * plan.frame.width * plan.frame.height * (samples > 1 ? 2 : 1);
+    plan.buffer(surfaces_, "surfaces of pixels", 3 * words);
+    plan.buffer(reflectance_, "reflectance of surfaces", words);
+    plan.buffer(light_, "statistics of light", words);
+    for (LargeBuffer& level : filtered_) plan.buffer(level, "filtered irradiance", 2 * words);
     plan.buffer(several_, "pixels with several surfaces",
                 (4 + uint64_t(plan.frame.width) * plan.frame.height) * sizeof(uint32_t));
     const bool hasMoments = noisy.blockSize > 0 && !noisy.hasStatistics;
@@ -151,7 +151,7 @@ void FilterIrradiance::plan(PassPlan& plan) {
     const glm::uvec2 texels = gbufferExtent(plan.frame, samples);
     if (hasMoments) plan.buffer(blockStatistics_, "statistics of rays", noisy.statisticsBytes(texels));
     if (!isResidual()) {
-        plan.image(own_, "light of own rays", values);
+        plan.buffer(own_, "light of own rays", 2 * words);
         plan.buffer(columns_, "light of columns",
                     uint64_t(plan.frame.width) * tilesOf(plan.frame.pixels()).y * kTileBytes);
     }
@@ -170,7 +170,7 @@ void FilterIrradiance::plan(PassPlan& plan) {
         plan.buffer(noiseRatio_, "noise ratio", kMeasuredLevels * sizeof(float));
     }
     if (noisy.blockSize > 0)
-        for (Image& mean : means_) plan.image(mean, "mean irradiance of neighborhoods", values);
+        for (LargeBuffer& mean : means_) plan.buffer(mean, "mean irradiance of neighborhoods", words);
 
     Defines defines{{"SAMPLES", std::to_string(samples)}};
     if (noisy.blockSize > 0) defines.emplace("STATISTICS", "1");
@@ -204,10 +204,11 @@ void FilterIrradiance::record(PassContext& context) {
     context.stream.fill(several_, 1);
     const Bindings surfaces{context[gbuffer_],
                             {"irradiance", context[noisy_].irradiance},
-                            {"surfaces", surfaces_},
-                            {"source", filtered_[0]},
-                            {"reflectance", reflectance_},
-                            ifUsed({"own", own_}),
+                            {"SurfacesRef", surfaces_.ref()},
+                            {"SourceRef", filtered_[0].ref()},
+                            ifUsed({"MeansRef", means_[1].ref()}),
+                            {"ReflectanceRef", reflectance_.ref()},
+                            ifUsed({"OwnRef", own_.ref()}),
                             {"indirectList", several_},
                             {"pixels", pixels}};
     context.dispatch(findSurfaces_, pixels, surfaces);
@@ -231,15 +232,18 @@ void FilterIrradiance::record(PassContext& context) {
     for (uint32_t level = 0; level < levels(); ++level) {
         if (hasMeans && hasRegression() && level >= kMeanLevels) {
             widenMeans(context, level);
-            context.dispatch(widerMeans_, glm::uvec2(surfaces_.desc().extent),
-                             {{"surfaces", surfaces_}, {"mean", means_[level % 2]}, {"light", light_}});
+            context.dispatch(widerMeans_, glm::uvec2(pixels.x, pixels.y * (hasSeveral(context) ? 2 : 1)),
+                             {{"SurfacesRef", surfaces_.ref()},
+                              {"MeansRef", means_[level % 2].ref()},
+                              {"LightRef", light_.ref()},
+                              {"pixels", pixels}});
         }
         if (hasMoments && hasRegression() && level < kMeasuredLevels) measureNoise(context, level);
         wavelet_.record(context, level,
-                        {{"surfaces", surfaces_},
-                         {"light", light_},
-                         {"source", filtered_[level % 2]},
-                         {"result", filtered_[(level + 1) % 2]},
+                        {{"SurfacesRef", surfaces_.ref()},
+                         {"LightRef", light_.ref()},
+                         {"SourceRef", filtered_[level % 2].ref()},
+                         {"ResultRef", filtered_[(level + 1) % 2].ref()},
                          ifUsed({"noiseRatio", noiseRatio_}),
                          {"edgeStoppingScale", edgeStoppingScale()},
                          ifUsed({"ratioLevel", std::min(level, kMeasuredLevels - 1)})},
@@ -247,11 +251,11 @@ void FilterIrradiance::record(PassContext& context) {
     }
 
     // Compute the radiance that they reflect
-    const Image& filtered = filtered_[levels() % 2];
+    const LargeBuffer& filtered = filtered_[levels() % 2];
     if (!isResidual()) keepLight(context, filtered);
     context.dispatch(resolve_, pixels,
-                     {{"irradiance", filtered},
-                      {"reflectance", reflectance_},
+                     {{"IrradianceRef", filtered.ref()},
+                      {"ReflectanceRef", reflectance_.ref()},
                       {"unfiltered", context.orBlack(unfiltered_)},
                       ifUsed({"raised", raised_}),
                       {"result", context[result_].image}});
@@ -260,8 +264,9 @@ void FilterIrradiance::record(PassContext& context) {
 void FilterIrradiance::boundOutliers(PassContext& context) const {
     const glm::uvec2 pixels = context.frame.pixels(), tiles = tilesOf(pixels);
     context.dispatch(bound_, pixels,
-                     {{"surfaces", surfaces_},
-                      {"source", filtered_[0]},
+                     {{"SurfacesRef", surfaces_.ref()},
+                      {"SourceRef", filtered_[0].ref()},
+                      {"MeansRef", means_[1].ref()},
                       {"statistics", blockStatistics_},
                       {"blockMeans", blockMeans_},
                       ifUsed({"tiles", tiles_}),
@@ -272,12 +277,12 @@ void FilterIrradiance::boundOutliers(PassContext& context) const {
         context.dispatch(giveBack_, tiles, {{"tiles", tiles_}, {"raised", raised_}, {"tileCount", tiles}});
 }
 
-void FilterIrradiance::keepLight(PassContext& context, const Image& filtered) const {
+void FilterIrradiance::keepLight(PassContext& context, const LargeBuffer& filtered) const {
     const glm::uvec2 pixels = context.frame.pixels(), tiles = tilesOf(pixels);
     context.dispatch(keepLight_, glm::uvec2(pixels.x, tiles.y),
-                     {{"irradiance", filtered},
-                      {"reflectance", reflectance_},
-                      {"own", own_},
+                     {{"IrradianceRef", filtered.ref()},
+                      {"ReflectanceRef", reflectance_.ref()},
+                      {"OwnRef", own_.ref()},
                       {"columns", columns_},
                       {"pixels", pixels}});
     context.dispatch(sumColumns_, tiles, {{"columns", columns_}, {"tiles", tiles_}, {"pixels", pixels}});
@@ -287,9 +292,9 @@ void FilterIrradiance::keepLight(PassContext& context, const Image& filtered) co
 void FilterIrradiance::measureNoise(PassContext& context, uint32_t level) const {
     const glm::uvec2 pixels = context.frame.pixels(), tiles = tilesOf(pixels);
     context.dispatch(noise_, pixels,
-                     {{"surfaces", surfaces_},
-                      {"light", light_},
-                      {"source", filtered_[level % 2]},
+                     {{"SurfacesRef", surfaces_.ref()},
+                      {"LightRef", light_.ref()},
+                      {"SourceRef", filtered_[level % 2].ref()},
                       {"noise", noiseSums_},
                       {"pixels", pixels},
                       {"level", level}});
@@ -301,9 +306,10 @@ void FilterIrradiance::measureNoise(PassContext& context, uint32_t level) const 
 void FilterIrradiance::findLight(PassContext& context) const {
     const NoisyIrradiance& noisy = context[noisy_];
     const CameraRays camera = cameraRays(context.frame.camera, context.frame.width, context.frame.height);
-    const Bindings bindings{{"surfaces", surfaces_},
-                            {"light", light_},
-                            ifUsed({"mean", means_[(kMeanLevels - 1) % 2]}),
+    const Bindings bindings{{"SurfacesRef", surfaces_.ref()},
+                            {"LightRef", light_.ref()},
+                            ifUsed({"MeansRef", means_[(kMeanLevels - 1) % 2].ref()}),
+                            {"pixels", context.frame.pixels()},
                             ifUsed({"statistics", noisy.hasStatistics ? noisy.statistics : blockStatistics_}),
                             ifUsed({"indirectList", several_}),
                             {"blocks", blocks(context)},
@@ -316,9 +322,9 @@ void FilterIrradiance::findLight(PassContext& context) const {
 
 void FilterIrradiance::widenMeans(PassContext& context, uint32_t level) const {
     mean_.record(context, level,
-                 {{"surfaces", surfaces_},
-                  {"source", level == 0 ? filtered_[0] : means_[(level - 1) % 2]},
-                  {"result", means_[level % 2]}},
+                 {{"SurfacesRef", surfaces_.ref()},
+                  {"SourceRef", means_[(level + 1) % 2].ref()},
+                  {"ResultRef", means_[level % 2].ref()}},
                  several_);
 }
 

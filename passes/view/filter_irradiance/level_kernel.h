@@ -28,11 +28,12 @@ class LevelKernel {
     /// @param second pixels that may have a second surface (surfaces.comp).
     void record(PassContext& context, uint32_t level, const Bindings& bindings, const Buffer& second) const {
         const glm::uvec2 pixels = context.frame.pixels();
-        const uint32_t rows = STRIP_ROWS << level, strips = ((pixels.y + rows - 1) / rows) << level;
-        context.dispatch(first_, glm::uvec2(pixels.x, strips), {bindings.all(), {"level", level}});
+        const glm::uvec2 strip = glm::uvec2(STRIP_COLUMNS, STRIP_ROWS) << level;
+        const glm::uvec2 strips = ((pixels + strip - 1u) / strip) << level;
+        context.dispatch(first_, strips, {bindings.all(), {"pixels", pixels}, {"level", level}});
         if (hasSecond_)
             dispatchIndirect(context.stream, second_, second, 0,
-                             {bindings.all(), {"level", level}, {"indirectList", second}});
+                             {bindings.all(), {"pixels", pixels}, {"level", level}, {"indirectList", second}});
     }
 
  private:

@@ -1,7 +1,6 @@
 // Statistics of the light around each element: the mean irradiance of its neighborhood, and the statistics of rays,
 // interpolated between the centers of blocks. With LISTED around the second elements of listed pixels, else around all
 // first ones.
-#include "passes/view/filter_irradiance/elements.glsl"
 #include "passes/view/filter_irradiance/surface_light.glsl"
 #include "shaders/filter/ray_statistics.h"
 #ifdef LISTED
@@ -10,11 +9,13 @@
 layout(local_size_x = 64) in;
 
 #ifdef STATISTICS
-uniform sampler2D mean;  // mean.comp
+layout(scalar) readonly buffer MeansRef { Words1 means; };
 layout(scalar) readonly buffer Statistics { RayStatistics data[]; } statistics;
 #endif
-layout(rgba32f) writeonly uniform image2D light;  // surface_light.glsl
+layout(scalar) readonly buffer SurfacesRef { Words3 surfaces; };
+layout(scalar) readonly buffer LightRef { Words1 light; };  // surface_light.glsl
 layout(push_constant, scalar) uniform Push {
+    uvec2 pixels;
     uvec2 blocks;
     float blockSize;   // Pixels along a block's edge.
     float pixelAngle;  // Width of a pixel at unit distance.
@@ -43,18 +44,20 @@ vec2 interpolatedStatistics(ivec2 pixel) {
 #endif
 
 void main() {
-    const ivec2 pixels = imageSize(light) / ivec2(1, LAYERS);
+    const ivec2 pixels = ivec2(push.pixels);
 #ifdef LISTED
     if (gl_GlobalInvocationID.x >= listedItems()) return;
     const uint item = indirectList.items[gl_GlobalInvocationID.x];  // surfaces.comp
-    const ivec2 pixel = ivec2(item & 0xffffu, item >> 16), element = pixel + ivec2(0, pixels.y);
+    const ivec2 pixel = ivec2(item & 0xffffu, item >> 16);
+    const uint element = elementOf(pixel, pixels, 1);
 #else
-    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), element = pixel;
+    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, pixels))) return;
+    const uint element = elementOf(pixel, pixels, 0);
 #endif
-    const uvec4 surface = texelFetch(surfaces, element, 0);
+    const u64vec3 surface = surfaces.data[element];
     if (areaOf(surface) == 0.0) {
-        imageStore(light, element, vec4(0.0));
+        light.data[element] = uint64_t(0);
         return;
     }
 
@@ -63,12 +66,12 @@ void main() {
     float variance = 1.0;  // Over the squared mean, or SIGNED.
 #ifdef STATISTICS
     const vec2 rays = interpolatedStatistics(pixel);
-    const vec3 neighborhood = texelFetch(mean, element, 0).xyz;
+    const Mean neighborhood = unpackMean(means.data[element]);
     variance = rays.y;
 #ifdef SIGNED
     found.rayVariance = variance;
 #else
-    found.rayVariance = variance * square(neighborhood.x);
+    found.rayVariance = variance * square(neighborhood.luminance);
 #endif
     setMean(found, neighborhood);
     found.gradient = rays.x;
@@ -77,5 +80,5 @@ void main() {
     const float minDistance = MIN_PIXELS * push.pixelAngle * distance(unpackSurface(surface).position, push.camera);
     found.gradient = min(found.gradient, sqrt(variance) / minDistance);
 #endif
-    imageStore(light, element, packLight(found));
+    light.data[element] = packLight(found);
 }

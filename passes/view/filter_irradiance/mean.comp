@@ -1,27 +1,25 @@
 // One level of an edge-avoiding à-trous wavelet (Dammertz et al. 2010) with geometric edge-stopping only: the mean
 // irradiance of an element's neighborhood on the same surface. wavelet.comp compares these means to detect changes of
 // light.
-#include "passes/view/filter_irradiance/elements.glsl"
-#include "shaders/scene/sampling.glsl"
+#include "passes/view/filter_irradiance/mean.glsl"
 
-// At level 0 irradiance and number of rays, then the result of the previous level.
-uniform sampler2D source;
-// Mean luminance, W/m²; rays per pixel; sum of their squared weights: the mean has the variance of rays² / squares
-// rays.
-layout(rgba32f) writeonly uniform image2D result;
-layout(push_constant) uniform Push { int level; } push;
+layout(scalar) readonly buffer SurfacesRef { Words3 surfaces; };
+layout(scalar) readonly buffer SourceRef { Words1 source; };  // At level 0 of elements alone (surfaces.comp).
+layout(scalar) readonly buffer ResultRef { Words1 result; };
+layout(push_constant) uniform Push {
+    uvec2 pixels;
+    int level;
+} push;
 
 struct Tap {
     Surface surface;
     float area;
-    vec3 light;  // As `result`, but at level 0 the number of rays is that of the element.
+    Mean mean;
 };
 
-Tap loadTap(ivec2 element) {
-    const uvec4 bits = texelFetch(surfaces, element, 0);
-    const vec4 value = texelFetch(source, element, 0);
-    return Tap(unpackSurface(bits), areaOf(bits),
-               push.level == 0 ? vec3(luminance(value.rgb), value.aa) : value.rgb);
+Tap loadTap(uint element) {
+    const u64vec3 words = surfaces.data[element];
+    return Tap(unpackSurface(words), areaOf(words), unpackMean(source.data[element]));
 }
 
 struct Sums { float luminances, rays, squares, weights; };
@@ -31,22 +29,20 @@ Sums emptySums() { return Sums(0.0, 0.0, 0.0, 0.0); }
 float weightOf(Tap a, Tap b) { return sameSurface(a.surface, b.surface); }
 
 void addTap(inout Sums sums, Tap center, Tap tap, float kernel_, float weight) {
-    const float bySize = kernel_ * weight * tap.area;
-    const float byRays = push.level > 0 ? bySize : tap.area > 0.0 ? kernel_ * weight : 0.0;
-    sums.luminances += byRays * tap.light.y * tap.light.x;
-    sums.rays += byRays * tap.light.y;
-    sums.squares += byRays * byRays * tap.light.z;
+    const float bySize = kernel_ * weight * tap.area, byRays = bySize * tap.mean.rays;
+    sums.luminances += byRays * tap.mean.luminance;
+    sums.rays += byRays;
+    sums.squares += bySize * bySize * tap.mean.squares;
     sums.weights += bySize;
 }
 
-void store(ivec2 element, Tap center, Sums sums) {
+void store(uint element, Tap center, Sums sums) {
     const float rays = sums.rays, weights = sums.weights;
     const float meanSquares = overlap(push.level) * sums.squares / (weights * weights);
-    imageStore(result, element,
-               center.area > 0.0 ? vec4(rays > 0.0 ? sums.luminances / rays : 0.0, rays / weights, meanSquares, 0.0)
-                                 : vec4(0.0));
+    const Mean mean = Mean(rays > 0.0 ? sums.luminances / rays : 0.0, rays / weights, meanSquares);
+    result.data[element] = center.area > 0.0 ? packMean(mean) : uint64_t(0);
 }
 
 #include "passes/view/filter_irradiance/level.glsl"
 
-void main() { filterLevel(imageSize(result), push.level); }
+void main() { filterLevel(ivec2(push.pixels), push.level); }

@@ -7,9 +7,9 @@
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = TILE, local_size_y = TILE) in;
 
-uniform usampler2D surfaces;
-uniform sampler2D light;
-uniform sampler2D source;  // Irradiance, W/m²; number of rays that it represents.
+layout(scalar) readonly buffer SurfacesRef { Words3 surfaces; };
+layout(scalar) readonly buffer LightRef { Words1 light; };
+layout(scalar) readonly buffer SourceRef { Words2 source; };  // Irradiance, W/m²; number of rays that it represents.
 layout(scalar) writeonly buffer Noise { NoiseSums data[]; } noise;
 layout(push_constant) uniform Push {
     uvec2 pixels;
@@ -34,11 +34,11 @@ struct Sample {
 
 bool find(ivec2 pixel, out Sample found) {
     if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, ivec2(push.pixels)))) return false;
-    const uvec4 bits = texelFetch(surfaces, pixel, 0);
-    const vec4 value = texelFetch(source, pixel, 0);
-    if (areaOf(bits) < 1.0 || value.w == 0.0) return false;
-    found = Sample(unpackSurface(bits), luminance(value.rgb),
-                   unpackLight(texelFetch(light, pixel, 0)).rayVariance / value.w);
+    const uint element = elementOf(pixel, ivec2(push.pixels), 0);
+    const u64vec3 words = surfaces.data[element];
+    const vec4 value = unpackValues(source.data[element]);
+    if (areaOf(words) < 1.0 || value.w == 0.0) return false;
+    found = Sample(unpackSurface(words), luminance(value.rgb), unpackLight(light.data[element]).rayVariance / value.w);
     return true;
 }
 

@@ -1,10 +1,11 @@
 // Radiance that each pixel reflects of the filtered irradiance, by Lambert's law, and of light that is not filtered.
+#include "passes/view/filter_irradiance/elements.glsl"
 #include "shaders/filter/block_interpolation.glsl"
 #include "shaders/filter/tiles.glsl"
 layout(local_size_x = 64) in;
 
-uniform sampler2D irradiance;   // Of elements (elements.glsl), W/m².
-uniform sampler2D reflectance;  // surfaces.comp
+layout(scalar) readonly buffer IrradianceRef { Words2 irradiance; };    // W/m²
+layout(scalar) readonly buffer ReflectanceRef { Words1 reflectance; };  // surfaces.comp
 uniform sampler2D unfiltered;   // W/(m² sr); one black texel where there is none.
 layout(rgba32f) writeonly uniform image2D result;
 #ifdef GIVE_BACK
@@ -21,13 +22,14 @@ vec3 raisedAt(ivec2 pixel, uvec2 pixels) {
 void main() {
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(result);
     if (any(greaterThanEqual(pixel, size))) return;
-    const vec4 first = texelFetch(reflectance, pixel, 0);
-    vec3 sum = first.rgb * texelFetch(irradiance, pixel, 0).rgb, reflected = first.rgb;
+    const uint element = elementOf(pixel, size, 0);
+    const vec4 first = unpackHalves(reflectance.data[element]);
+    vec3 sum = first.rgb * unpackValues(irradiance.data[element]).rgb, reflected = first.rgb;
 #if SAMPLES > 1
-    const ivec2 second = pixel + ivec2(0, size.y);
+    const uint second = elementOf(pixel, size, 1);
     if (first.a > 0.0) {
-        const vec3 secondReflectance = texelFetch(reflectance, second, 0).rgb;
-        if (secondReflectance != vec3(0.0)) sum += secondReflectance * texelFetch(irradiance, second, 0).rgb;
+        const vec3 secondReflectance = unpackHalves(reflectance.data[second]).rgb;
+        if (secondReflectance != vec3(0.0)) sum += secondReflectance * unpackValues(irradiance.data[second]).rgb;
         reflected += secondReflectance;
     }
 #endif

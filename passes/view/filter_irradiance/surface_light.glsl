@@ -2,7 +2,7 @@
 #ifndef VOXRAY_FILTER_SURFACE_LIGHT_GLSL
 #define VOXRAY_FILTER_SURFACE_LIGHT_GLSL
 
-#include "passes/view/filter_irradiance/surface.glsl"
+#include "passes/view/filter_irradiance/mean.glsl"
 
 struct SurfaceLight {
     float mean;          // Mean luminance of the irradiance around the element, W/m².
@@ -11,16 +11,26 @@ struct SurfaceLight {
     float gradient;      // Bound of the relative change of irradiance along the surface, 1/m.
 };
 
-vec4 packLight(SurfaceLight l) { return vec4(l.mean, l.meanVariance, l.rayVariance, l.gradient); }
-SurfaceLight unpackLight(vec4 texel) { return SurfaceLight(texel.x, texel.y, texel.z, texel.w); }
+// The high bits of a float, rounded; `cut` bits fewer.
+uint shortened(float x, int cut) { return (floatBitsToUint(x) + (1u << (cut - 1))) >> cut; }
 
-float square(float x) { return x * x; }
+// In 64 bits: the mean, whose differences count, has 16 bits of precision, the variance of a ray 7, the others 6.
+uint64_t packLight(SurfaceLight l) {
+    const uint gradient = shortened(l.gradient, 18);
+    return packUint2x32(uvec2((shortened(l.mean, 8) << 8) | (gradient >> 5),
+                              (gradient << 27) | (shortened(l.meanVariance, 18) << 14) | shortened(l.rayVariance, 17)));
+}
+SurfaceLight unpackLight(uint64_t word) {
+    const uvec2 bits = unpackUint2x32(word);
+    const uint gradient = ((bits.x & 0xffu) << 23) | ((bits.y >> 27) << 18);
+    return SurfaceLight(uintBitsToFloat(bits.x & 0xffffff00u), uintBitsToFloat(((bits.y >> 14) & 0x1fffu) << 18),
+                        uintBitsToFloat((bits.y & 0x3fffu) << 17), uintBitsToFloat(gradient));
+}
 
-// neighborhood: a texel of mean.comp.
-void setMean(inout SurfaceLight l, vec3 neighborhood) {
-    l.mean = neighborhood.x;
+void setMean(inout SurfaceLight l, Mean neighborhood) {
+    l.mean = neighborhood.luminance;
     l.meanVariance =
-        neighborhood.y > 0.0 ? l.rayVariance * neighborhood.z / (neighborhood.y * neighborhood.y) : 0.0;
+        neighborhood.rays > 0.0 ? l.rayVariance * neighborhood.squares / square(neighborhood.rays) : 0.0;
 }
 
 // Mean squared difference of two independent values with a relative variance of 1, in units of their squared mean.
@@ -46,21 +56,24 @@ void setMean(inout SurfaceLight l, vec3 neighborhood) {
 
 // Expected mean squared difference of two elements' irradiance (wavelet.comp).
 float squaredBias(Surface a, SurfaceLight lightA, Surface b, SurfaceLight lightB, float edgeStoppingScale) {
-    const float cosine = clamp(dot(a.normal, b.normal), 1e-6, 1.0);
+    const vec3 segment = b.position - a.position;
+    const float squared = dot(segment, segment), off = offPlane(a, b, segment, squared);
+    const float sine = clamp(versine(a.normal, b.normal), 0.0, 1.0 - 1e-6), cosine = 1.0 - sine;
     const float noise = lightA.meanVariance + lightB.meanVariance, difference = square(lightA.mean - lightB.mean);
 #ifdef SIGNED
     // Bounds from rays' deviations would be those of paths' noise: only what means differ by beyond doubt counts, and
     // for surfaces with other planes or normals the size of both
     const float size2 = 0.5 * (square(lightA.mean) + square(lightB.mean) - SIGNIFICANT * noise);
-    const float unlike = max(offPlane(a, b), 1.0 - square(cosine));
+    const float unlike = max(off, 1.0 - square(cosine));
     return UNRELATED * max(size2, 0.0) * unlike + ATTENUATION * max(difference - SIGNIFICANT * noise, 0.0);
 #else
     const float mean_ = 0.5 * (lightA.mean + lightB.mean), variance = 0.5 * (lightA.rayVariance + lightB.rayVariance);
-    const float alongSurface = mean_ * max(lightA.gradient, lightB.gradient) * distance(a.position, b.position);
-    const float overNormals = sqrt(variance * (1.0 - cosine) / cosine);
+    // The square of the sum of both bounds, by their squares
+    const float alongSurface = square(mean_ * max(lightA.gradient, lightB.gradient)) * squared;
+    const float overNormals = variance * sine / cosine;
+    const float bound = alongSurface + overNormals + 2.0 * sqrt(alongSurface * overNormals);
     const float measured = max(difference - SIGNIFICANT * noise, 0.0);
-    const float unrelated = UNRELATED * square(mean_) * offPlane(a, b);
-    return square(edgeStoppingScale * (alongSurface + overNormals)) + unrelated + ATTENUATION * measured;
+    return square(edgeStoppingScale) * bound + UNRELATED * square(mean_) * off + ATTENUATION * measured;
 #endif
 }
 

@@ -4,8 +4,9 @@
 //
 // Most pixels show one surface. The others, but for those without any, are listed for the same program with LISTED, and
 // they alone have second elements. With READS_ALL_SECOND those of all other pixels are cleared.
-#include "passes/view/filter_irradiance/surface.glsl"
+#include "passes/view/filter_irradiance/mean.glsl"
 #include "shaders/compute/indirect_list.glsl"
+#include "shaders/scene/sampling.glsl"
 layout(local_size_x = 64) in;
 
 uniform sampler2D position;
@@ -13,26 +14,23 @@ uniform sampler2D normal;
 uniform sampler2D geometricNormal;
 uniform sampler2D irradiance;
 uniform sampler2D albedo;
-layout(rgba32ui) writeonly uniform uimage2D surfaces;
-layout(rgba32f) writeonly uniform image2D source;       // Irradiance, W/m²; number of rays.
+layout(scalar) writeonly buffer SurfacesRef { Words3 surfaces; };
+layout(scalar) writeonly buffer SourceRef { Words2 source; };  // Irradiance, W/m²; number of rays.
+#ifdef STATISTICS
+layout(scalar) writeonly buffer MeansRef { Words1 means; };  // Of elements alone.
+#endif
 // Albedo times the surface's fraction of the pixel; a: 1 where the pixel shows more.
-layout(rgba16f) writeonly uniform image2D reflectance;
+layout(scalar) writeonly buffer ReflectanceRef { Words1 reflectance; };
 #ifdef KEEPS_LIGHT
 // What the texels with rays reflect of their own irradiance, times the surface's fraction of the pixel; their irradiance
 // alone unless ALBEDO_VARIES. a: 1 if there are such texels.
-layout(rgba32f) writeonly uniform image2D own;
+layout(scalar) writeonly buffer OwnRef { Words2 own; };
 #endif
 layout(push_constant) uniform Push { uvec2 pixels; } push;
 
 #define TEXELS (SAMPLES * SAMPLES)  // Of a pixel.
-#define LAYERS (SAMPLES > 1 ? 2 : 1)
 
 ivec2 texelOf(ivec2 pixel, int t) { return pixel * SAMPLES + ivec2(t % SAMPLES, t / SAMPLES); }
-
-Surface surfaceOf(ivec2 texel) {
-    return Surface(texelFetch(position, texel, 0).xyz, texelFetch(geometricNormal, texel, 0).xyz,
-                   texelFetch(normal, texel, 0).xyz);
-}
 
 // Sums over the texels of an element.
 struct ElementSums {
@@ -47,79 +45,95 @@ ElementSums emptySums() {
     return ElementSums(Surface(vec3(0.0), vec3(0.0), vec3(0.0)), vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
 }
 
-void storeElement(ivec2 element, ElementSums sums, int texels) {
-    const uvec4 surface = packSurface(sums.surface, float(texels) / float(TEXELS));
-    imageStore(surfaces, element, texels > 0 ? surface : uvec4(0u));
-    imageStore(source, element, vec4(sums.light / max(sums.rays, 1.0), sums.rays));
-    imageStore(reflectance, element, vec4(sums.color / float(TEXELS), texels % TEXELS > 0 ? 1.0 : 0.0));
+// @param value irradiance and number of rays.
+void addLight(inout ElementSums sums, vec4 value, vec3 color) {
+    const vec3 light = value.w * value.rgb;
+    sums.light += light;
+    sums.rays += value.w;
+    sums.color += color;
+    sums.reflected += light * color;
+}
+
+vec3 unit(vec3 v) { return dot(v, v) > 0.0 ? normalize(v) : vec3(0.0); }
+
+// @param sums with sums of positions and normals over `points` texels.
+void storeElement(uint element, ElementSums sums, int points, int texels) {
+    const float area = float(texels) / float(TEXELS);
+    const Surface s = Surface(sums.surface.position / float(max(points, 1)), unit(sums.surface.geometricNormal),
+                              unit(sums.surface.normal));
+    const vec3 irradiance_ = sums.light / max(sums.rays, 1.0);
+    surfaces.data[element] = texels > 0 ? packSurface(s, area) : u64vec3(0);
+    source.data[element] = packValues(vec4(irradiance_, sums.rays));
+#ifdef STATISTICS
+    means.data[element] = packOwnMean(luminance(irradiance_), sums.rays, area);
+#endif
+    reflectance.data[element] = packHalves(vec4(sums.color / float(TEXELS), texels % TEXELS > 0 ? 1.0 : 0.0));
 #ifdef KEEPS_LIGHT
 #ifdef ALBEDO_VARIES
-    const vec3 light = float(texels) / float(TEXELS) * sums.reflected;
+    const vec3 light = area * sums.reflected / max(sums.rays, 1.0);
 #else
-    const vec3 light = sums.light;
+    const vec3 light = irradiance_;
 #endif
-    imageStore(own, element, vec4(light / max(sums.rays, 1.0), sums.rays > 0.0 ? 1.0 : 0.0));
+    own.data[element] = packValues(vec4(light, sums.rays > 0.0 ? 1.0 : 0.0));
 #endif
 }
 
 // Stores the only surface of a pixel, or that it has none; false where it has several, or texels without any.
 bool storeOneSurface(ivec2 pixel) {
-    const ivec2 corner = pixel * SAMPLES;
-    const Surface first = surfaceOf(corner);
-    const vec3 color = texelFetch(albedo, corner, 0).rgb;
-    const bool isKnown = texelFetch(normal, corner, 0).w > 0.0;
     ElementSums sums = emptySums();
-    bool isOne = true, isNone = true;
+    Surface first;
+    vec3 color;
+    bool isKnown = false, isOne = true, isNone = true;
     for (int t = 0; t < TEXELS; ++t) {
         const ivec2 texel = texelOf(pixel, t);
-        const vec4 point = texelFetch(position, texel, 0), value = texelFetch(irradiance, texel, 0);
-        isNone = isNone && point.w == 0.0;
-        sums.surface.position += point.xyz / float(TEXELS);
-        sums.light += value.w * value.rgb;
-        sums.rays += value.w;
-        if (isKnown) {
-            sums.surface.normal += first.normal;
-            sums.surface.geometricNormal += first.geometricNormal;
-            sums.color += color;
-            sums.reflected += value.w * value.rgb * color;
-        } else {
-            const Surface s = Surface(point.xyz, texelFetch(geometricNormal, texel, 0).xyz,
-                                      texelFetch(normal, texel, 0).xyz);
-            isOne = isOne && point.w > 0.0 && isSameSurface(first, s);
-            sums.surface.normal += s.normal;
-            sums.surface.geometricNormal += s.geometricNormal;
-            const vec3 albedo_ = texelFetch(albedo, texel, 0).rgb;
-            sums.color += albedo_;
-            sums.reflected += value.w * value.rgb * albedo_;
+        const vec4 point = texelFetch(position, texel, 0);
+        Surface s = Surface(point.xyz, first.geometricNormal, first.normal);
+        if (!isKnown) {
+            const vec4 normal_ = texelFetch(normal, texel, 0);
+            isKnown = normal_.w > 0.0;
+            s.geometricNormal = texelFetch(geometricNormal, texel, 0).xyz;
+            s.normal = normal_.xyz;
+            color = texelFetch(albedo, texel, 0).rgb;
         }
+        if (t == 0) first = s;
+        isOne = isOne && point.w > 0.0 && (t == 0 || isKnown || isSameSurface(first, s));
+        isNone = isNone && point.w == 0.0;
+        sums.surface.position += s.position;
+        sums.surface.geometricNormal += s.geometricNormal;
+        sums.surface.normal += s.normal;
+        addLight(sums, texelFetch(irradiance, texel, 0), color);
     }
-    if (isOne || isNone) storeElement(pixel, sums, isOne ? TEXELS : 0);
+    if (isOne || isNone) storeElement(elementOf(pixel, ivec2(push.pixels), 0), sums, TEXELS, isOne ? TEXELS : 0);
     return isOne || isNone;
 }
 
 void storeSurfaces(ivec2 pixel) {
     // Read the pixel's texels
     Surface texels[TEXELS];
+    vec4 values[TEXELS];  // Irradiance, number of rays.
+    vec3 colors[TEXELS];
     bool isUnassigned[TEXELS];
-    float rays[TEXELS];
     int unassigned = 0;
     for (int t = 0; t < TEXELS; ++t) {
         const ivec2 texel = texelOf(pixel, t);
-        texels[t] = surfaceOf(texel);
-        rays[t] = texelFetch(irradiance, texel, 0).w;
-        isUnassigned[t] = texelFetch(position, texel, 0).w > 0.0;
+        const vec4 point = texelFetch(position, texel, 0);
+        texels[t] = Surface(point.xyz, texelFetch(geometricNormal, texel, 0).xyz, texelFetch(normal, texel, 0).xyz);
+        values[t] = texelFetch(irradiance, texel, 0);
+        colors[t] = texelFetch(albedo, texel, 0).rgb;
+        isUnassigned[t] = point.w > 0.0;
         unassigned += isUnassigned[t] ? 1 : 0;
     }
 
     for (int layer = 0; layer < LAYERS; ++layer) {
-        const ivec2 element = pixel + ivec2(0, layer * int(push.pixels.y));
+        const uint element = elementOf(pixel, ivec2(push.pixels), layer);
         if (unassigned == 0) {
-            storeElement(element, emptySums(), 0);
+            storeElement(element, emptySums(), 0, 0);
             continue;
         }
 
         // Select the surface with most rays
-        int best = 0, bestTexels = 0;
+        Surface best = texels[0];
+        int bestTexels = 0;
         float bestRays = -1.0;
         for (int a = 0; a < TEXELS && bestTexels < unassigned; ++a) {
             if (!isUnassigned[a]) continue;
@@ -127,11 +141,11 @@ void storeSurfaces(ivec2 pixel) {
             int groupTexels = 0;
             for (int b = 0; b < TEXELS; ++b) {
                 const bool same = isUnassigned[b] && isSameSurface(texels[a], texels[b]);
-                groupRays += same ? rays[b] : 0.0;
+                groupRays += same ? values[b].w : 0.0;
                 groupTexels += same ? 1 : 0;
             }
             if (groupRays > bestRays || (groupRays == bestRays && groupTexels > bestTexels)) {
-                best = a;
+                best = texels[a];
                 bestRays = groupRays;
                 bestTexels = groupTexels;
             }
@@ -142,26 +156,20 @@ void storeSurfaces(ivec2 pixel) {
         int area = 0;  // Texels.
         for (int b = 0; b < TEXELS; ++b) {
             if (!isUnassigned[b]) continue;
-            const ivec2 texel = texelOf(pixel, b);
-            const bool same = isSameSurface(texels[best], texels[b]);
+            const bool same = isSameSurface(best, texels[b]);
             if (same) {
-                sums.surface.position += texels[b].position / float(bestTexels);
+                sums.surface.position += texels[b].position;
                 sums.surface.normal += texels[b].normal;
                 sums.surface.geometricNormal += texels[b].geometricNormal;
             }
             if (same || layer == 1) {
-                const vec3 light = rays[b] * texelFetch(irradiance, texel, 0).rgb;
-                const vec3 albedo_ = texelFetch(albedo, texel, 0).rgb;
-                sums.light += light;
-                sums.rays += rays[b];
+                addLight(sums, values[b], colors[b]);
                 ++area;
-                sums.color += albedo_;
-                sums.reflected += light * albedo_;
                 isUnassigned[b] = false;
                 --unassigned;
             }
         }
-        storeElement(element, sums, area);
+        storeElement(element, sums, bestTexels, area);
     }
 }
 
@@ -177,7 +185,7 @@ void main() {
     if (any(greaterThanEqual(uvec2(pixel), push.pixels))) return;
     if (!storeOneSurface(pixel)) appendItem(uint(pixel.x) | (uint(pixel.y) << 16), 1u);
 #ifdef READS_ALL_SECOND
-    imageStore(surfaces, pixel + ivec2(0, push.pixels.y), uvec4(0u));
+    surfaces.data[elementOf(pixel, ivec2(push.pixels), 1)] = u64vec3(0);
 #endif
 }
 #endif

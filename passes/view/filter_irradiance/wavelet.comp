@@ -16,20 +16,21 @@
 //   - the difference of unrelated values, for elements on different surfaces (UNRELATED);
 //   - the measured difference of the neighborhoods' means (mean.comp), beyond the noise of these means.
 #include "passes/view/filter_irradiance/surface_light.glsl"
-#include "passes/view/filter_irradiance/elements.glsl"
 #ifdef REGRESSION
 #include "passes/view/filter_irradiance/regression.glsl"
 #else
 #include "passes/view/filter_irradiance/weighted_mean.glsl"
 #endif
 
-uniform sampler2D light;  // surface_light.glsl
-uniform sampler2D source;  // Irradiance, W/m²; number of rays that it represents.
-layout(rgba32f) writeonly uniform image2D result;
+layout(scalar) readonly buffer SurfacesRef { Words3 surfaces; };
+layout(scalar) readonly buffer LightRef { Words1 light; };    // surface_light.glsl
+layout(scalar) readonly buffer SourceRef { Words2 source; };  // Irradiance, W/m²; number of rays that it represents.
+layout(scalar) readonly buffer ResultRef { Words2 result; };
 #ifdef NOISE_RATIO
 layout(scalar) readonly buffer NoiseRatio { float data[]; } noiseRatio;  // noise_ratio.comp
 #endif
-layout(push_constant) uniform Push {
+layout(push_constant, scalar) uniform Push {
+    uvec2 pixels;
     int level;
     float edgeStoppingScale;
 #ifdef NOISE_RATIO
@@ -64,14 +65,14 @@ struct Tap {
     float count;        // Of the element among others.
 };
 
-Tap loadTap(ivec2 element) {
-    const uvec4 bits = texelFetch(surfaces, element, 0);
-    const vec4 value = texelFetch(source, element, 0);
+Tap loadTap(uint element) {
+    const u64vec3 words = surfaces.data[element];
+    const vec4 value = unpackValues(source.data[element]);
     Tap tap;
-    tap.surface = unpackSurface(bits);
-    tap.area = areaOf(bits);
+    tap.surface = unpackSurface(words);
+    tap.area = areaOf(words);
     const float ratio = noiseRatioOfLevel();
-    tap.light = unpackLight(texelFetch(light, element, 0));
+    tap.light = unpackLight(light.data[element]);
     tap.light.meanVariance *= ratio;
     tap.irradiance = value.rgb;
     tap.inverseRays = value.w > 0.0 ? 1.0 / value.w : 0.0;
@@ -101,9 +102,9 @@ void addTap(inout Sums sums, Tap center, Tap tap, float kernel_, float weight) {
     sums.squaredWeights += total * total * tap.inverseRays;
 }
 
-void store(ivec2 element, Tap center, Sums sums) {
+void store(uint element, Tap center, Sums sums) {
     if (center.area == 0.0 || sums.estimate.weights == 0.0) {
-        imageStore(result, element, vec4(0.0));
+        result.data[element] = u64vec2(0);
         return;
     }
 
@@ -119,9 +120,9 @@ void store(ivec2 element, Tap center, Sums sums) {
     // A weighted mean of independent values of value.w rays each has sum(weight² / value.w) / sum(weight)² of one ray's
     // variance. Where squares of weights vanish, as of taps that are nothing alike, it represents none
     const float spread = overlap(push.level) * sums.squaredWeights;
-    imageStore(result, element, vec4(value, spread > 0.0 ? square(sums.estimate.weights) / spread : 0.0));
+    result.data[element] = packValues(vec4(value, spread > 0.0 ? square(sums.estimate.weights) / spread : 0.0));
 }
 
 #include "passes/view/filter_irradiance/level.glsl"
 
-void main() { filterLevel(imageSize(result), push.level); }
+void main() { filterLevel(ivec2(push.pixels), push.level); }

@@ -165,7 +165,6 @@ void GBufferPass::plan(PassPlan& plan) {
     if (materials_.areLambert) defines.emplace("LAMBERT", "1");
     if (materials_.isDark) defines.emplace("DARK", "1");
     defines.emplace("SAMPLES", std::to_string(params_.samplesPerPixelEdge));
-    if (sharesMaterials()) defines.emplace("PIXEL_ORDER", "1");
     const bool hasRays = params_.method == GBufferMethod::Rays;
     for (Kernel* kernel : {&generateRays_, &storePixels_}) kernel->define(defines);
     Defines listing = defines, listed = defines;

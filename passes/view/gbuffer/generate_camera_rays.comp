@@ -5,7 +5,7 @@
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
-layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(scalar) writeonly buffer Rays { u64vec4 data[]; } rays;  // Ray, in words of 64 bits.
 layout(push_constant, scalar) uniform Push {
     CameraView view;
     uint seed;  // Of the frame.
@@ -17,5 +17,7 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.batchRays) return;
     const uvec2 texel = uvec2(sampledTexel(push.firstRay + i, push.view.width));
-    rays.data[i] = Ray(push.view.origin, 0.0, sampleDirection(push.view, texel, SAMPLES, push.seed), 1.0e30);
+    const uvec4 from = floatBitsToUint(vec4(push.view.origin, 0.0));
+    const uvec4 along = floatBitsToUint(vec4(sampleDirection(push.view, texel, SAMPLES, push.seed), 1.0e30));
+    rays.data[i] = u64vec4(packUint2x32(from.xy), packUint2x32(from.zw), packUint2x32(along.xy), packUint2x32(along.zw));
 }

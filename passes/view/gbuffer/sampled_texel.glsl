@@ -1,5 +1,5 @@
-// The texel that a camera ray goes through: row by row, or with PIXEL_ORDER pixel by pixel, so that a pixel's rays are
-// neighbors.
+// The texel that a camera ray goes through. Rays go pixel by pixel, and row by row of pixels: those that are traced together
+// are then next to each other along rows and columns.
 #ifndef VOXRAY_GBUFFER_SAMPLED_TEXEL_GLSL
 #define VOXRAY_GBUFFER_SAMPLED_TEXEL_GLSL
 
@@ -10,12 +10,6 @@ ivec2 texelOf(uint pixel, uint t, uint texelsAcross) {
     return ivec2(pixel % pixelsAcross, pixel / pixelsAcross) * SAMPLES + ivec2(t % SAMPLES, t / SAMPLES);
 }
 
-ivec2 sampledTexel(uint ray, uint texelsAcross) {
-#ifdef PIXEL_ORDER
-    return texelOf(ray / TEXELS, ray % TEXELS, texelsAcross);
-#else
-    return ivec2(ray % texelsAcross, ray / texelsAcross);
-#endif
-}
+ivec2 sampledTexel(uint ray, uint texelsAcross) { return texelOf(ray / TEXELS, ray % TEXELS, texelsAcross); }
 
 #endif
