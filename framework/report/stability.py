@@ -20,7 +20,7 @@ from report.rows import read_rows
 from report.verdict import Estimate, magnitude_of, mean_of, root_mean_square_of
 
 _LIMIT_COLUMNS = ("profile", "scene", "measure", "methods", "limit", "scale", "why")
-_REASON_COLUMNS = ("scenes", "measure", "methods", "cause")
+_REASON_COLUMNS = ("scenes", "measures", "methods", "cause")
 _CAUSE_COLUMNS = ("cause", "sentence")
 UNKNOWN = "not known"
 
@@ -234,15 +234,15 @@ def read_limits(path: Path) -> list[Row]:
 
 @dataclass(frozen=True)
 class Reason:
-    """Why cells fail. scenes and beginnings of methods' names; empty: all. measure: likewise."""
+    """Why cells fail. scenes, measures and beginnings of methods' names; empty: all."""
 
     scenes: tuple[str, ...]
-    measure: str
+    measures: tuple[str, ...]
     methods: tuple[str, ...]
     sentence: str
 
     def fits(self, row: Row, method: str) -> bool:
-        return ((not self.scenes or row.scene in self.scenes) and self.measure in ("", row.kind)
+        return ((not self.scenes or row.scene in self.scenes) and (not self.measures or row.kind in self.measures)
                 and (not self.methods or method.startswith(self.methods)))
 
 
@@ -258,7 +258,7 @@ def read_reasons(path: Path) -> list[Reason]:
     lacking = [entry["cause"] for entry in entries if entry["cause"] not in sentences]
     if lacking:
         raise ReportError(f"{path}: {known.name} has no cause '{lacking[0]}'")
-    return [Reason(_names(entry["scenes"]), entry["measure"], _names(entry["methods"]), sentences[entry["cause"]]) for entry in entries]
+    return [Reason(_names(entry["scenes"]), _names(entry["measures"]), _names(entry["methods"]), sentences[entry["cause"]]) for entry in entries]
 
 
 def _names(listed: str) -> tuple[str, ...]:
