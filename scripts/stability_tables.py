@@ -8,7 +8,9 @@ stability_tables.py [--take DIR...]
 """
 import argparse
 import csv
+import math
 import re
+import string
 import sys
 from pathlib import Path
 
@@ -25,6 +27,24 @@ TABLE = re.compile(r"^<!-- stability: (\S+) -->\n((?:\|.*\n)*)", re.M)
 KINDS = {"leak": ("leak",), "energy": ("energy",), "bias": ("bias",), "mean, image": ("mean", "image"), "drift": ("drift",),
          "flicker": ("flicker",), "afterglow": ("afterglow",), "hitch": ("hitch",)}
 VERDICTS = (HOLDS, FAILS, UNDECIDED, NOISE)
+# Of a choice of a method: what a scene has, and the scenes of the matrix that have it.
+SCENES = {
+    "mirrors": ("mirror room",),
+    "dark rooms behind walls thinner than a voxel": ("wall of 1/4 voxel", "wall of 1/2 voxel", "wall of 1 voxel", "shell room",
+                                                     "wall behind, 0.3 m", "wall behind, 1.7 m", "inner corner"),
+    "rooms lit through windows by sun and sky": ("window room", "edge of a shadow", "sun in a sky map"),
+    "a room lit through a slit or hole narrower than a voxel": ("slit of 2 cm",),
+    "the open: sun and sky on houses and ground": ("outdoors",),
+    "leaves, or other things a few pixels wide": ("leaves", "swaying leaves"),
+    "tiny lamps, or thousands of small ones": ("candles", "10,000 lamps"),
+    "rough metal": ("thin metal",),
+    "a camera that moves": ("camera path", "there and back", "clipmap scroll", "behind a box", "round a corner"),
+    "a camera that jumps": ("jumps", "a camera that jumps"),
+    "surfaces that move": ("moving objects", "skinned figure", "a door opens"),
+    "lamps that move": ("light path", "glowing panel"),
+    "lamps that go out": ("light goes out",),
+    "none of these: still walls and furniture, soft light": ("cornell", "clutter", "slivers", "white room"),
+}
 
 
 def take(folders: list[Path]) -> None:
@@ -45,7 +65,7 @@ def names(cells: list[dict], key: str) -> list[str]:
 
 
 def verdicts(cells: list[dict]) -> list[str]:
-    kinds = {kind: [cell for cell in cells if cell["measure"] in measures] for kind, measures in KINDS.items()}
+    kinds = {kind: [cell for cell in cells if cell["measure"].partition("@")[0] in measures] for kind, measures in KINDS.items()}
     kinds = {kind: own for kind, own in kinds.items() if own}
     lines = [[method, *(counts([cell for cell in own if cell["method"] == method]) for own in [*kinds.values(), cells])]
              for method in names(cells, "method")]
@@ -69,6 +89,39 @@ def values(cells: list[dict]) -> list[str]:
                                 for scene, measure, limit in rows)))
 
 
+def over(cell: dict) -> float:
+    """What a value is at most, by the end of its interval, over its limit: noise counts against a method."""
+    return float(cell["high"]) / float(cell["limit"]) if cell["high"] else math.inf
+
+
+def worst(cells: list[dict], method: str, scenes: tuple[str, ...]) -> float:
+    """The largest of these in the scenes; NaN where nothing is measured."""
+    return max((over(cell) for cell in cells if cell["method"] == method and cell["scene"] in scenes), default=math.nan)
+
+
+def kinds(cells: list[dict]) -> list[str]:
+    """What a scene may have, with the methods that are nearest to their limits there."""
+    lines = []
+    for letter, (kind, scenes) in zip(string.ascii_uppercase, SCENES.items()):
+        ranked = sorted((value, method) for method in names(cells, "method") if not math.isnan(value := worst(cells, method, scenes)))
+        best = [f"{method} ({times(value)})" for value, method in ranked[:3]]
+        shown = [f"`{scene}`" for scene in scenes if any(cell["scene"] == scene for cell in cells)]
+        lines.append([letter, kind, ", ".join(best), ", ".join(shown)])
+    return list(markdown_table(["line", "your scene has", "least error, over its limit", "measured in"], lines))
+
+
+def times(value: float) -> str:
+    """What a value is at most, over its limit, as a reader compares it."""
+    return "" if math.isnan(value) else text.figures(value, 2) if value >= 0.01 else "0"
+
+
+def choice(cells: list[dict]) -> list[str]:
+    """Of each method the largest value over its limit, by what a scene has."""
+    letters = string.ascii_uppercase[:len(SCENES)]
+    lines = [[method, *(times(worst(cells, method, scenes)) for scenes in SCENES.values())] for method in names(cells, "method")]
+    return list(markdown_table(["method", *letters], lines))
+
+
 def causes(cells: list[dict]) -> list[str]:
     """Cells that fail, by measure and reason, those that most have first."""
     groups: dict[tuple[str, str], list[dict]] = {}
@@ -90,7 +143,7 @@ def main() -> None:
     if options.take:
         take(options.take)
     cells = read_rows(CELLS)
-    tables = {"verdicts": verdicts, "values": values, "causes": causes}
+    tables = {"verdicts": verdicts, "values": values, "causes": causes, "kinds": kinds, "choice": choice}
     PAGE.write_text(TABLE.sub(lambda match: f"<!-- stability: {match[1]} -->\n" + "\n".join(tables[match[1]](cells)) + "\n",
                               PAGE.read_text(encoding="utf-8")), encoding="utf-8")
 

@@ -5,11 +5,10 @@
 #include <cmath>
 
 #include "base/interrupt.h"
+#include "graph/warmup.h"
 
 namespace voxray {
 namespace {
-
-constexpr uint32_t kFirstWarmupFrame = 1000000;
 
 /// Timings of the passes of a phase over its repeats.
 class PhaseSamples {

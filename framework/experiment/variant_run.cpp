@@ -176,11 +176,15 @@ void writeReferenceImages(const std::filesystem::path& folder, const PreparedRef
     };
     writeLight("final", images.final);
     writeLight("indirect", images.indirect);
-    for (const PixelSelection& mask : reference.masks) {
-        ImageF picture(images.final.mean.width, images.final.mean.height, 1);
-        std::ranges::copy(mask.pixels, picture.data.begin());
-        writePng(folder / ("mask." + mask.name + ".png"), picture);
-    }
+    for (const PixelSelection& mask : reference.masks)
+        writePng(folder / ("mask." + mask.name + ".png"),
+                 maskPicture(mask, images.final.mean.width, images.final.mean.height));
+}
+
+ImageF maskPicture(const PixelSelection& mask, uint32_t width, uint32_t height) {
+    ImageF picture(width, height, 1);
+    std::ranges::copy(mask.pixels, picture.data.begin());
+    return picture;
 }
 
 }  // namespace voxray

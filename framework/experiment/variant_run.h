@@ -40,4 +40,7 @@ void writeVariantImages(const std::filesystem::path& folder, const VariantImages
 void writeReferenceImages(const std::filesystem::path& folder, const PreparedReference& reference,
                           const ImageSettings& settings);
 
+/// The pixels that a mask selects, in white.
+ImageF maskPicture(const PixelSelection& mask, uint32_t width, uint32_t height);
+
 }  // namespace voxray

@@ -86,9 +86,10 @@ class Program:
                     os.write(2, (lines[-1] + "\n").encode("utf-8", "surrogateescape"))
                 raise
 
-    def export_scene(self, config: str, target: str, changes: Iterable[str]) -> None:
-        """Writes what a config renders as glTF, after these changes of the form PATH=VALUE. @throws ProgramEnded where it is wrong."""
-        words = [word for change in changes for word in ("--set", change)]
+    def export_scene(self, config: str, target: str, changes: Iterable[str], frame: int | None = None) -> None:
+        """Writes what a config renders as glTF, after these changes of the form PATH=VALUE: the scene at its time, or in a frame.
+        @throws ProgramEnded where it is wrong."""
+        words = [word for change in changes for word in ("--set", change)] + ([] if frame is None else ["--frame", str(frame)])
         done = subprocess.run([self.path, "export-scene", config, target, *option_words(self._options, ("profile", "scenes", "set")), *words],
                               stdout=subprocess.DEVNULL, check=False)
         if done.returncode != 0:

@@ -155,7 +155,7 @@ def _data(cells: list[Cell]) -> dict:
 
 def render(cells: list[Cell], directory: Path) -> str:
     """The whole page, self-contained. @throws ReportError where an image is no PNG."""
-    present = {cell.row.measure for cell in cells}
+    present = {cell.row.kind for cell in cells}
     return pages.render("stability.html.j2", scripts=_SCRIPTS, data=_data(cells), summary=summary(cells), cells=_table(cells),
                         methods=_by_method(cells),
                         directory=str(directory), measures=[(name, meaning) for name, (_, meaning) in MEASURES.items() if name in present])

@@ -4,6 +4,7 @@
 #include "base/child_process.h"
 #include "base/error.h"
 #include "graph/registry.h"
+#include "graph/warmup.h"
 #include "passes/external/external_images.h"
 #include "scene/gltf_sidecar.h"
 
@@ -70,6 +71,7 @@ class External final : public Pass {
         uint32_t spp = 64;
         uint32_t bounces = 8;
         ExternalLight light = ExternalLight::Total;
+        bool eachFrame = false;
         double timeoutS = 3600;
         std::string install;
         static constexpr auto schema() {
@@ -86,6 +88,10 @@ class External final : public Pass {
                       0u, 1024u),
                 field("light", &Params::light,
                       "total: final.exr. parts: direct.exr and indirect.exr, so that indirect light is scored, too."),
+                field("each_frame", &Params::eachFrame,
+                      "Runs the program for each frame in turn, also where scene and camera are those of the last one: "
+                      "for a renderer that keeps light of earlier frames. The side-car has the 'frame', the first "
+                      "measured one is 0; warm-up frames have none."),
                 field("timeout_s", &Params::timeoutS, "Seconds after which the program is ended; 0: none.", 0.0, 1e6),
                 field("install", &Params::install, "How to get the program; told where it is missing.")};
         }
@@ -103,8 +109,9 @@ class External final : public Pass {
     }
     void requireProgram() const;
     /// @return seconds by the wall clock.
-    double runProgramIn(const std::filesystem::path& folder, const Frame& frame) const;
-    Value request(const Frame& frame) const;
+    double runProgramIn(const std::filesystem::path& folder, const PassContext& context) const;
+    Value request(const PassContext& context) const;
+    bool isRendered(const Frame& frame) const;
 
     const Params params_;
     Out<FrameImage> final_{*this, "final", "radiance towards the camera"};
@@ -134,6 +141,8 @@ void External::requireProgram() const {
 void External::plan(PassPlan& plan) {
     if (params_.command.words.empty() == params_.images.name.empty())
         throw Error("{}: give either a 'command', the words of a program, or 'images', a folder", kName);
+    if (params_.eachFrame && params_.command.words.empty())
+        throw Error("{}.each_frame: 'images' holds one frame; give a 'command'", kName);
     if (!params_.command.words.empty()) requireProgram();
     for (const Out<FrameImage>* port : {&final_, &indirect_}) {
         if (port == &indirect_ && !hasParts()) continue;
@@ -143,22 +152,24 @@ void External::plan(PassPlan& plan) {
     }
 }
 
-Value External::request(const Frame& frame) const {
+Value External::request(const PassContext& context) const {
     Value more = Value::map();
     const auto add = [&](const char* key, auto value) { more.set(key, Value::fromScalar(fmt::format("{}", value))); };
     add("spp", params_.spp);
     add("bounces", params_.bounces);
-    add("seed", frame.seed);
+    add("seed", context.frame.seed);
+    if (params_.eachFrame && !isWarmup(context.frameIndex)) add("frame", context.frameIndex);
     more.set("light", Value::fromScalar(enumName(params_.light), true));
     return more;
 }
 
-double External::runProgramIn(const std::filesystem::path& folder, const Frame& frame) const {
+double External::runProgramIn(const std::filesystem::path& folder, const PassContext& context) const {
+    const Frame& frame = context.frame;
     const ExportedView view{frame.camera, frame.width, frame.height, frame.exposureStops};
     SceneState seen = *frame.scene;
     seen.cameras = {frame.camera};
     std::vector<std::string> words = params_.command.words;
-    words.push_back(exportForRenderers(seen, view, folder / "scene.glb", request(frame)).string());
+    words.push_back(exportForRenderers(seen, view, folder / "scene.glb", request(context)).string());
     const ProgramEnd end = runProgram(words, programFolder(), params_.timeoutS);
     const std::string said = lastLines(end.output, kToldLines);
     if (end.isLate)
@@ -169,10 +180,14 @@ double External::runProgramIn(const std::filesystem::path& folder, const Frame& 
     return end.seconds;
 }
 
+bool External::isRendered(const Frame& frame) const {
+    return !params_.eachFrame && rendered_ && isSame(rendered_->camera, frame.camera) &&
+           rendered_->seed == frame.seed && rendered_->sceneVersion == frame.sceneVersion;
+}
+
 void External::record(PassContext& context) {
     const Frame& frame = context.frame;
-    if (rendered_ && isSame(rendered_->camera, frame.camera) && rendered_->seed == frame.seed &&
-        rendered_->sceneVersion == frame.sceneVersion) {
+    if (isRendered(frame)) {
         context.tellTime(rendered_->time.milliseconds, rendered_->time.clock);
         context.markOutputsUnchanged();
         return;
@@ -182,7 +197,7 @@ void External::record(PassContext& context) {
     double wallSeconds = 0;
     if (isProgram) {
         requireProgram();
-        wallSeconds = runProgramIn(exchange.emplace().path(), frame);
+        wallSeconds = runProgramIn(exchange.emplace().path(), context);
     }
     const std::filesystem::path folder = isProgram ? exchange->path() : std::filesystem::path(params_.images.path);
     const ExternalImages images = readExternalImages(folder, params_.light, frame.width, frame.height);

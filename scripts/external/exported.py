@@ -2,27 +2,18 @@
 
     exported.py SIDECAR
 
-It runs in the export's folder, takes the scene there whose files are those of the side-car, and copies its direct.exr,
-indirect.exr and time.json. Where there is no indirect.exr it is final.exr, of all light, less direct.exr.
+It runs in the export's folder, takes the scene there, and of a sequence the frame, that is what the side-car asks for, and copies its
+direct.exr, indirect.exr and time.json. Where there is no indirect.exr it is final.exr, of all light, less direct.exr.
 """
 
-import json
 import shutil
 import sys
 from pathlib import Path
 
 sys.path[:0] = [str(Path(__file__).resolve().parents[2] / part) for part in ("framework", "framework/python")]
 import voxray.exr  # noqa: E402
+from orchestration.exported_scene import ExportedScene  # noqa: E402
 from report import exr_pixels  # noqa: E402
-
-
-def described(sidecar: Path) -> tuple:
-    """What tells a scene and its view from others: side-car and files. The rest of a side-car is what is asked of a program."""
-    record = json.loads(sidecar.read_text(encoding="utf-8"))
-    environment = record["environment"] or {}
-    files = [record["scene"], *([environment["map"]] if "map" in environment else [])]
-    seen = {key: record[key] for key in ("image", "camera", "lights", "materials")}
-    return seen, environment.get("radiance"), [(sidecar.parent / name).read_bytes() for name in files]
 
 
 def lacking(folder: Path) -> list[str]:
@@ -33,8 +24,8 @@ def lacking(folder: Path) -> list[str]:
 
 
 def main(asked: Path) -> None:
-    wanted, target = described(asked), asked.parent
-    folders = [sidecar.parent for sidecar in sorted(Path().glob("*/*/scene.json")) if described(sidecar) == wanted]
+    wanted, target = ExportedScene(asked), asked.parent
+    folders = [sidecar.parent for sidecar in sorted(Path().rglob("scene.json")) if ExportedScene(sidecar).is_as(wanted)]
     if not folders:
         sys.exit("no scene of this export is the one that is asked for: export the matrix again")
     folder = min(folders, key=lambda found: len(lacking(found)))

@@ -102,6 +102,14 @@ class Command(External):
         self.assertEqual(self.pass_row()["clock"], "wall clock of the program")
         self.assertGreater(float(self.row()["frame_ms_median"]), 10)
 
+    def test_it_runs_for_each_frame_where_it_keeps_light(self):
+        self.config(more="light: parts, each_frame: true")
+        self.expect(0, "run", "mixed.yaml", *QUIET)
+        self.assertEqual([run.get("frame") for run in self.runs()], [None, 0, 1])
+        os.makedirs(self.path("theirs"))
+        self.images("theirs", more="each_frame: true")
+        self.assertIn("each_frame: 'images' holds one frame", self.expect(2, "run", "mixed.yaml", *QUIET).stderr)
+
     def test_a_second_seed_is_a_second_run(self):
         self.config()
         self.expect(0, "run", "mixed.yaml", *QUIET, "--set", "measure.second_seed=true")

@@ -94,6 +94,23 @@ class ExportScene(CommandTest):
                   if "KHR_lights_punctual" in node.get("extensions", {})]
         self.assertEqual(sorted(placed), list(range(len(lights))))
 
+    def test_a_frame_of_what_moves_and_masks(self):
+        self.write("tiny.yaml", TINY.replace("{builtin: cornell}", """
+  builtin: cornell
+  camera: {position: [0, 1, 3], target: [0, 1, 0], fov_deg: 50, move: [0.1, 0, 0]}
+  lights: [{point: [0, 1.5, 0], intensity: 1, move: [0, -0.1, 0], off_at: 3}]""") + "  masked: {measure.masks: {floor: {object: floor}}}\n")
+        for words, frame, place, height in ((["--frame", "2"], 2, 0.2, 1.3), ([], None, 0, 1.5)):
+            self.expect(0, "export-scene", "tiny.yaml", "out.glb", *words)
+            sidecar = self.json("out.json")
+            self.assertEqual(sidecar.get("frame"), frame)
+            self.assertAlmostEqual(sidecar["camera"]["position"][0], place, 5)
+            self.assertAlmostEqual(sidecar["lights"][0]["position"][1], height, 5)
+        self.expect(0, "export-scene", "tiny.yaml", "out.glb", "--frame", "3")
+        self.assertEqual(self.json("out.json")["lights"][0]["intensity"], [0, 0, 0])
+        self.assertNotIn("out.mask.floor.png", self.files())
+        self.expect(0, "export-scene", "tiny.yaml", "out.glb", "--profile", "masked")
+        self.assertIn("out.mask.floor.png", self.files())
+
     def test_bad_target(self):
         self.write("tiny.yaml", TINY)
         self.assertIn("tiny.yaml", self.expect(1, "export-scene", "tiny.yaml", "tiny.yaml/out.glb").stderr)

@@ -14,12 +14,15 @@ import unittest
 from pathlib import Path
 
 import numpy
+from PIL import Image
 
 from generality_test import SEEDS, noise
 from support import PROGRAM, SOURCE, CommandTest
 
 sys.path.insert(0, os.path.join(SOURCE, "framework", "python"))
+sys.path.insert(0, os.path.join(SOURCE, "framework"))
 import voxray.exr  # noqa: E402
+from report import exr_pixels  # noqa: E402
 
 METHODS = ["cones", "marched cones", "final gather"]
 SCENARIOS = ["wall of 1/4 voxel", "wall of 1 voxel", "furnace", "a second run", "10 km away", "1 mm large", "light times 1e6"]
@@ -111,31 +114,88 @@ class Stability(CommandTest):
         self.assertIn("trace_gather_ray", self.expect(2, *words, "--remedies", "--resume").stderr)
 
 
-    def test_the_scenes_of_a_matrix_are_exported_and_images_of_another_renderer_scored(self):
-        self.write("own.yaml", OWN_MATRIX.replace("profiles:", "profiles:\n  moving: {measure: {frames: 3, compare_every: 1}}"))
-        self.write("own.csv", "profile,scene,measure,methods,limit,scale,why\nplain,cornell,energy,,0.1,,light stays\n"
-                   "moving,cornell,flicker,,0.1,,an eye\n")
-        self.expect(0, "stability", "--config", "own.yaml", "--export", "theirs")
-        self.assertEqual(self.files("theirs"), ["matrix.csv", "matrix.yaml", "plain/cornell/scene.glb", "plain/cornell/scene.json"])
-        self.assertEqual([row["measure"] for row in self.rows("theirs", "matrix.csv")], ["energy"])
-        words = ["stability", "--config", "theirs/matrix.yaml", "--tracer", "embree", "--quiet", "--out", "out"]
-        self.expect(1, *words)
-        cell = "cornell", "energy", "other renderer"
-        self.assertIn("plain/cornell: lacks direct.exr, time.json, indirect.exr or final.exr", read(self.path("out", "stability.csv"))[cell]["reason"])
+    def scores(self, status, *words):
+        """Scores the exported folder `theirs`. @return the rows of stability.csv"""
+        self.expect(status, "stability", "--config", "theirs/matrix.yaml", "--tracer", "embree", "--quiet", "--out", "out", *words)
+        return read(self.path("out", "stability.csv"))
 
-        def value(**images):
-            folder = Path(self.path("theirs", "plain", "cornell"))
-            (folder / "time.json").write_text('{"render_seconds": 1}', encoding="utf-8")
-            for name, radiance in images.items():
-                voxray.exr.write(folder / f"{name}.exr", numpy.full((9, 16, 3), radiance))
-            self.expect(0, *words)
-            return float(read(self.path("out", "stability.csv"))[cell]["value"])
+    def leave(self, *folder, **images):
+        """Leaves even images of these radiances as another renderer does, or images of a shape (height, width, 3)."""
+        target = Path(self.path("theirs", *folder))
+        (target / "time.json").write_text('{"render_seconds": 1}', encoding="utf-8")
+        for name, radiance in images.items():
+            voxray.exr.write(target / f"{name}.exr", numpy.broadcast_to(radiance, (9, 16, 3)))
+
+    def test_still_scenes_are_exported_with_masks_and_images_of_another_renderer_scored(self):
+        self.write("own.yaml", OWN_MATRIX.replace("cornell: {builtin: cornell}}", "cornell: {builtin: cornell}, again: {builtin: cornell, lights: area}, "
+                                                  "away: {builtin: cornell, transform: {translate: [10000, 0, 0]}}, "
+                                                  "far: {builtin: cornell, boxes: false, transform: {translate: [10000, 0, 0]}}}"))
+        self.write("own.csv", "profile,scene,measure,methods,limit,scale,why\nplain,cornell,energy,,0.1,,light stays\n"
+                   "plain,cornell,energy@left,,0.1,,in the left half\nplain,far,mean,,0.01,,anywhere\nplain,away,mean,,0.01,,anywhere\n"
+                   "plain,again,image,,0.01,1,the same\n")
+        os.mkdir(self.path("masks"))
+        Image.fromarray(numpy.repeat([[255] * 8 + [0] * 8], 9, 0).astype(numpy.uint8)).save(self.path("masks", "left.png"))
+        self.expect(0, "stability", "--config", "own.yaml", "--export", "theirs")
+        # What is an earlier scene again, or that elsewhere, can't be told from it, and is left out
+        self.assertEqual(self.files("theirs"), ["masks/left.png", "matrix.csv", "matrix.yaml", *(f"plain/{scene}/scene.{kind}" for scene in
+                                                ("cornell", "far") for kind in ("glb", "json"))])
+        self.assertEqual([row["measure"] for row in self.rows("theirs", "matrix.csv")], ["energy", "energy@left", "mean"])
+        cell, left, far = (("cornell", "energy", "other renderer"), ("cornell", "energy@left", "other renderer"),
+                           ("far", "mean", "other renderer"))
+        self.assertIn("plain/cornell: lacks direct.exr, time.json, indirect.exr or final.exr", self.scores(1)[cell]["reason"])
 
         # The mean of 0.25 over the reference's is that of 0.5 over it, halved; all light less direct light is indirect light.
-        light = value(direct=0.5, final=0.75)
-        self.assertAlmostEqual(value(direct=0.5, final=1.0), 2 * (1 + light) - 1, 4)
-        self.assertAlmostEqual(value(indirect=0.25), light, 4)
-        self.assertIn("none of these scenes is still", self.expect(2, "stability", "--config", "own.yaml", "--profile", "moving", "--export", "no").stderr)
+        self.leave("plain", "cornell", direct=0.5, final=0.75)
+        self.leave("plain", "far", direct=0.5, indirect=0.25)
+        found = self.scores(0)
+        self.assertEqual(float(found[far]["value"]), 0)
+        light, light_left = (float(found[name]["value"]) for name in (cell, left))
+        self.leave("plain", "cornell", final=1.0)
+        self.assertAlmostEqual(float(self.scores(0)[cell]["value"]), 2 * (1 + light) - 1, 4)
+        # What is wrong outside of a mask does not count under it
+        self.leave("plain", "cornell", indirect=numpy.repeat(numpy.repeat([[[0.25]] * 8 + [[9.0]] * 8], 9, 0), 3, 2))
+        found = self.scores(0)
+        self.assertAlmostEqual(float(found[left]["value"]), light_left, 6)
+        self.assertEqual(found[cell]["verdict"], "fails")
+        self.assertEqual(found[far]["verdict"], "fails")
+
+    def test_sequences_are_exported_frame_by_frame_and_our_own_images_of_them_hold(self):
+        walk = "{builtin: cornell, time_step: 0.1, camera: {position: [0, 1, 3.4], target: [0, 1, 0], fov_deg: 40, move: [0.3, 0, 0]}, " \
+               "moving_spheres: {count: 1, radius: 0.3, center: [0, 1, 0.5], swing: [0.3, 0, 0], period: 1}}"
+        self.write("own.yaml", OWN_MATRIX.replace("spp: 16", "spp: 256").replace(
+            "profiles:", "profiles:\n  moving: {measure: {frames: 3, warmup: 2, compare_every: 1}, sweep.scene: {walk: %s}}" % walk))
+        self.write("own.csv", "profile,scene,measure,methods,limit,scale,why\nmoving,walk,flicker,,0.3,,an eye\n")
+        self.expect(0, "stability", "--config", "own.yaml", "--export", "theirs")
+        frames = [f"frame_{frame:03}" for frame in range(3)]
+        self.assertEqual(self.files("theirs"), ["matrix.csv", "matrix.yaml", *(f"moving/walk/{frame}/scene.{kind}" for frame in frames
+                                                                                 for kind in ("glb", "json"))])
+        cell = "walk", "flicker", "other renderer"
+        self.assertIn("frame_000: lacks", self.scores(1)[cell]["reason"])
+
+        # Each exported frame as a scene of its own, by path tracing
+        images = []
+        for frame in frames:
+            self.write("frame.yaml", "name: frame\nscene: {file: theirs/moving/walk/%s/scene.glb}\nimage: {width: 16, height: 9}\n"
+                       "graph: [{pass: path_trace, spp: 1024, bounces: 3}]\nmeasure: {frames: 1, warmup: 0}\n" % frame)
+            self.expect(0, "run", "frame.yaml", "--tracer", "embree", "--quiet", "--no-report", "--out", frame)
+            folder, = (Path(self.path(frame, "images")) / name for name in os.listdir(self.path(frame, "images")))
+            final, indirect = (exr_pixels.rgb(folder / f"{name}.exr") for name in ("final", "indirect"))
+            images.append({"direct": final - indirect, "indirect": indirect})
+        for frame, own in zip(frames, images):
+            self.leave("moving", "walk", frame, **own)
+        right = self.scores(0)[cell]
+        self.assertEqual(right["verdict"], "holds")
+        # Frames in another order
+        for frame, own in zip(frames, (images[2], images[0], images[1])):
+            self.leave("moving", "walk", frame, **own)
+        wrong = self.scores(0)[cell]
+        self.assertEqual(wrong["verdict"], "fails")
+        self.assertGreater(float(wrong["value"]), 3 * float(right["value"]))
+
+    def test_what_has_no_limit_is_not_exported(self):
+        self.write("own.yaml", OWN_MATRIX)
+        self.write("own.csv", "profile,scene,measure,methods,limit,scale,why\nother,cornell,energy,,0.1,,light stays\n")
+        self.assertIn("no limit for these scenes", self.expect(2, "stability", "--config", "own.yaml", "--export", "no").stderr)
 
 
 def record():

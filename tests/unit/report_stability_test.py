@@ -10,6 +10,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 sys.dont_write_bytecode = True
 sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "framework"), str(Path(__file__).resolve().parent)]
@@ -37,9 +38,14 @@ same,again,image,,0.001,1,the same numbers
 moving,path,flicker,,0.02,,an eye
 """
 REASONS = """\
-scene,measure,methods,reason
-,leak,,voxels of both sides
-wall,leak,cones,wide cones pass
+scenes,measures,methods,cause
+,leak,,mixed
+wall; room,leak; mean,cones; marched cones,wide
+"""
+CAUSES = """\
+cause,sentence
+mixed,voxels of both sides
+wide,wide cones pass
 """
 
 
@@ -50,7 +56,8 @@ class StabilityTest(unittest.TestCase):
         self.root = Path(folder.name) / "out"
         self.limits = Path(folder.name) / "limits.csv"
         self.limits.write_text(LIMITS, encoding="utf-8")
-        (Path(folder.name) / "limits_reasons.csv").write_text(REASONS, encoding="utf-8")
+        for name, table in (("reasons", REASONS), ("causes", CAUSES)):
+            (Path(folder.name) / f"limits_{name}.csv").write_text(table, encoding="utf-8")
 
     def profile(self, name, cells):
         """Writes a run; cells: (scene, method), or with a seed, -> an even image's radiance, or a text: why it failed; and scores."""
@@ -178,6 +185,27 @@ class Stability(StabilityTest):
         self.assertLess(held, 0.995)
         self.assertAlmostEqual(np.sqrt(np.mean([estimate.value**2 for estimate in found])), 0.1, 2)
 
+    def test_a_mask_chooses_the_pixels_that_count(self):
+        self.limits.write_text("profile,scene,measure,methods,limit,scale,why\nleak,wall,leak@left,,0.01,2,half of it\n"
+                               "energy,room,energy@left,,0.01,,half of it\n", encoding="utf-8")
+        halves = np.repeat(np.repeat([[[1.0]] * 4 + [[5.0]] * 4], 6, 0), 3, 2)
+        self.profile("leak", {("wall", "rays"): (halves, {})})
+        self.profile("energy", {("room", "rays"): (halves, {"indirect_mean_ratio": 9})})
+        (self.root / "energy" / "images" / "reference" / "indirect.exr").write_bytes(exr(np.full((6, 8, 3), 2, np.float32), zipped=True))
+        with self.assertRaisesRegex(ReportError, "no mask 'left'"):
+            self.cells()
+        (self.limits.parent / "masks").mkdir()
+        # A mask of another size is scaled to the image's
+        Image.fromarray(np.repeat([[255, 0]], 3, 0).astype(np.uint8)).save(self.limits.parent / "masks" / "left.png")
+        cells = self.cells()
+        self.assertAlmostEqual(cells["wall", "leak@left", "rays"].value, 0.5)
+        self.assertAlmostEqual(cells["room", "energy@left", "rays"].value, 0.5)
+
+    def test_a_cause_needs_its_sentence(self):
+        self.limits.with_name("limits_causes.csv").write_text("cause,sentence\nmixed,voxels of both sides\n", encoding="utf-8")
+        with self.assertRaisesRegex(ReportError, "limits_causes.csv has no cause 'wide'"):
+            self.cells()
+
     def test_remedies_say_what_lowers_a_cell_that_fails(self):
         bias = {"indirect_bias_nrmse": 0.2}
         self.profile("bias", {("room", "rays"): (1.0, bias), ("room", "cones"): (1.0, bias), ("room", "lookup"): (1.0, {"indirect_bias_nrmse": 0.01})})
@@ -218,6 +246,7 @@ class Stability(StabilityTest):
         for text, part in (("scene,limit\nroom,1\n", "expected the columns"),
                            (LIMITS.replace("bias,room,bias", "bias,room,bais"), "no measure 'bais'"),
                            (LIMITS.replace("0.08", "-1"), "a limit is 0 or more"),
+                           (LIMITS.replace("path,flicker", "path,flicker@rim"), "'flicker' is of the whole image"),
                            (LIMITS.replace("leak,,0.0001", "leak,rays,0.0001"), "the first limit is that of all methods")):
             self.limits.write_text(text, encoding="utf-8")
             with self.assertRaisesRegex(ReportError, part):
@@ -229,8 +258,10 @@ class Stability(StabilityTest):
     def test_the_shipped_limits_and_reasons_fit_together(self):
         rows = stability.read_limits(SHIPPED / "matrix.csv")
         self.assertGreater(len(rows), 30)
-        for entry in stability.read_reasons(SHIPPED / "matrix_reasons.csv"):
-            self.assertTrue(any(entry["scene"] in ("", row.scene) and entry["measure"] in ("", row.measure) for row in rows), entry)
+        for reason in stability.read_reasons(SHIPPED / "matrix_reasons.csv"):
+            for scene in reason.scenes or ("",):
+                for kind in reason.measures or ("",):
+                    self.assertTrue(any(scene in ("", row.scene) and kind in ("", row.kind) for row in rows), (scene, kind, reason))
         self.assertEqual(stability_page.limits(rows[0]), "0.015")
 
 
