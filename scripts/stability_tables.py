@@ -4,7 +4,8 @@
 stability_tables.py [--take DIR...]
 
 --take makes docs/stability.csv of runs of the matrix first, one folder a profile in each DIR, with today's limits and reasons
-(configs/stability/matrix.csv, matrix_reasons.csv). A table stands below its line "<!-- stability: NAME -->".
+(configs/stability/matrix.csv, matrix_reasons.csv), and docs/stability_times.csv of a folder `times`. A table stands below its line
+"<!-- stability: NAME -->".
 """
 import argparse
 import csv
@@ -21,13 +22,15 @@ from report import stability, stability_page, text  # noqa: E402
 from report.rows import markdown_table, read_rows  # noqa: E402
 from report.verdict import FAILS, HOLDS, NOISE, UNDECIDED  # noqa: E402
 
-PAGE, CELLS = ROOT / "docs" / "stability.md", ROOT / "docs" / "stability.csv"
+PAGE, CELLS, TIMES = ROOT / "docs" / "stability.md", ROOT / "docs" / "stability.csv", ROOT / "docs" / "stability_times.csv"
 LIMITS = ROOT / "configs" / "stability" / "matrix.csv"
 TABLE = re.compile(r"^<!-- stability: (\S+) -->\n((?:\|.*\n)*)", re.M)
 KINDS = {"leak": ("leak",), "energy": ("energy",), "bias": ("bias",), "mean, image": ("mean", "image"), "drift": ("drift",),
          "flicker": ("flicker",), "afterglow": ("afterglow",), "hitch": ("hitch",)}
 VERDICTS = (HOLDS, FAILS, UNDECIDED, NOISE)
-# Of a choice of a method: what a scene has, and the scenes of the matrix that have it.
+# Of a choice of a method: one that has another's image where there is no mirror, and those that use rays of frames before.
+SAME_IMAGE, WITH_HISTORY = "hybrid leaves", ("screen probes", "reservoirs", "paths with history")
+# What a scene has, and the scenes of the matrix that have it.
 SCENES = {
     "mirrors": ("mirror room",),
     "dark rooms behind walls thinner than a voxel": ("wall of 1/4 voxel", "wall of 1/2 voxel", "wall of 1 voxel", "shell room",
@@ -53,6 +56,10 @@ def take(folders: list[Path]) -> None:
     order = {row: place for place, row in enumerate(rows)}
     with open(CELLS, "w", newline="", encoding="utf-8") as file:
         csv.writer(file, lineterminator="\n").writerows(stability_page.csv_lines(sorted(found, key=lambda cell: order[cell.row])))
+    for folder in (folder / "times" for folder in folders if (folder / "times").is_dir()):
+        lines = [(row["method"], f"{float(row['frame_ms']):.1f}", f"{float(row['build_ms']):.1f}") for row in read_rows(folder, "results.csv")]
+        with open(TIMES, "w", newline="", encoding="utf-8") as file:
+            csv.writer(file, lineterminator="\n").writerows([("method", "frame_ms", "build_ms"), *lines])
 
 
 def counts(cells: list[dict]) -> str:
@@ -99,27 +106,38 @@ def worst(cells: list[dict], method: str, scenes: tuple[str, ...]) -> float:
     return max((over(cell) for cell in cells if cell["method"] == method and cell["scene"] in scenes), default=math.nan)
 
 
+def compared(cells: list[dict]) -> list[str]:
+    """The methods that are chosen among."""
+    return [method for method in names(cells, "method") if method != SAME_IMAGE]
+
+
+def least(cells: list[dict], scenes: tuple[str, ...]) -> str:
+    """The methods that are nearest to their limits."""
+    ranked = sorted((value, method) for method in compared(cells) if not math.isnan(value := worst(cells, method, scenes)))
+    none = [method for value, method in ranked if times(value) == "0"]
+    return f"{len(none)} methods (0)" if len(none) > 3 else ", ".join(f"{method} ({times(value)})" for value, method in ranked[:3])
+
+
 def kinds(cells: list[dict]) -> list[str]:
     """What a scene may have, with the methods that are nearest to their limits there."""
     lines = []
     for letter, (kind, scenes) in zip(string.ascii_uppercase, SCENES.items()):
-        ranked = sorted((value, method) for method in names(cells, "method") if not math.isnan(value := worst(cells, method, scenes)))
-        best = [f"{method} ({times(value)})" for value, method in ranked[:3]]
         shown = [f"`{scene}`" for scene in scenes if any(cell["scene"] == scene for cell in cells)]
-        lines.append([letter, kind, ", ".join(best), ", ".join(shown)])
+        lines.append([letter, kind, least(cells, scenes), ", ".join(shown)])
     return list(markdown_table(["line", "your scene has", "least error, over its limit", "measured in"], lines))
 
 
 def times(value: float) -> str:
     """What a value is at most, over its limit, as a reader compares it."""
-    return "" if math.isnan(value) else text.figures(value, 2) if value >= 0.01 else "0"
+    return "-" if math.isnan(value) else text.figures(value, 2) if value >= 0.01 else "0"
 
 
 def choice(cells: list[dict]) -> list[str]:
-    """Of each method the largest value over its limit, by what a scene has."""
-    letters = string.ascii_uppercase[:len(SCENES)]
-    lines = [[method, *(times(worst(cells, method, scenes)) for scenes in SCENES.values())] for method in names(cells, "method")]
-    return list(markdown_table(["method", *letters], lines))
+    """Of each method the largest value over its limit, by what a scene has, and its times."""
+    took = {row["method"]: [text.figures(float(row[column]), 2) for column in ("frame_ms", "build_ms")] for row in read_rows(TIMES)}
+    lines = [[method + (" *" if method in WITH_HISTORY else ""), *(times(worst(cells, method, scenes)) for scenes in SCENES.values()),
+              *took.get(method, ("-", "-"))] for method in compared(cells)]
+    return list(markdown_table(["method", *string.ascii_uppercase[:len(SCENES)], "frame, ms", "build, ms"], lines))
 
 
 def causes(cells: list[dict]) -> list[str]:
