@@ -57,7 +57,7 @@ def take(folders: list[Path]) -> None:
     with open(CELLS, "w", newline="", encoding="utf-8") as file:
         csv.writer(file, lineterminator="\n").writerows(stability_page.csv_lines(sorted(found, key=lambda cell: order[cell.row])))
     for folder in (folder / "times" for folder in folders if (folder / "times").is_dir()):
-        lines = [(row["method"], f"{float(row['frame_ms']):.1f}", f"{float(row['build_ms']):.1f}") for row in read_rows(folder, "results.csv")]
+        lines = [(row["method"], f"{float(row['frame_ms_median']):.1f}", f"{float(row['build_ms']):.1f}") for row in read_rows(folder, "results.csv")]
         with open(TIMES, "w", newline="", encoding="utf-8") as file:
             csv.writer(file, lineterminator="\n").writerows([("method", "frame_ms", "build_ms"), *lines])
 
