@@ -38,14 +38,16 @@ SCENES = {
     "rooms lit through windows by sun and sky": ("window room", "edge of a shadow", "sun in a sky map"),
     "a room lit through a slit or hole narrower than a voxel": ("slit of 2 cm",),
     "the open: sun and sky on houses and ground": ("outdoors",),
-    "leaves, or other things a few pixels wide": ("leaves", "swaying leaves"),
+    "leaves, or other things a few pixels wide": ("leaves",),
     "tiny lamps, or thousands of small ones": ("candles", "10,000 lamps"),
     "rough metal": ("thin metal",),
     "a camera that moves": ("camera path", "there and back", "clipmap scroll", "behind a box", "round a corner"),
     "a camera that jumps": ("jumps", "a camera that jumps"),
-    "surfaces that move": ("moving objects", "skinned figure", "a door opens"),
+    "surfaces that move": ("moving objects", "skinned figure"),
     "lamps that move": ("light path", "glowing panel"),
     "lamps that go out": ("light goes out",),
+    "leaves that sway": ("swaying leaves",),
+    "a dark room whose door opens": ("a door opens",),
     "none of these: still walls and furniture, soft light": ("cornell", "clutter", "slivers", "white room"),
 }
 
