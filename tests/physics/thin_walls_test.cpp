@@ -1,6 +1,9 @@
 // Two sides of a wall within one voxel: what each layout tells of them.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numeric>
+
 #include "scene/shapes.h"
 #include "tests/gpu/radiance_samples.h"
 #include "tests/physics/voxels_read.h"
@@ -83,9 +86,9 @@ TEST(ThinWalls, RaysLeakWhereVoxelsAreShared) {
     EXPECT_LT(leakOfGatherRays("inject_voxel_rays, paths_per_point: 16"), 0.005);
 }
 
-/// Area that light can reach, m², front and back: of so many plates in one place, 2 m x 2 m, tilted by
+/// Area that light can reach, m², by voxel and the six faces: of so many plates in one place, 2 m x 2 m, tilted by
 /// `rise`, and of a plate in front of a part of them, in the same plane.
-double visibleArea(int copies, bool hasPart, float rise) {
+std::vector<double> visibleAreas(int copies, bool hasPart, float rise, int visibilityRays) {
     SceneBuilder b("plates");
     const uint32_t white = b.lambert("white", glm::vec3(0.8f));
     const glm::vec3 corner(-1, 0.01f, -1), along(0, rise, 2), across(2, 0.5f * rise, 0);
@@ -94,12 +97,22 @@ double visibleArea(int copies, bool hasPart, float rise) {
     for (const float y : {-1.3f, 1.29f}) b.box("speck", {0, y, 0}, glm::vec3(0.01f), 0, white);
     b.pointLight({0, 1, 0}, glm::vec3(1.0f));
     b.camera({0, 1, 0}, {0, 0, 0.1f}, 60);
-    Chain chain(evaluated(b), graphYaml({"voxelize, resolution: 16, visibility_rays: 64"}), 16, 16);
+    Chain chain(evaluated(b), graphYaml({fmt::format("voxelize, resolution: 16, visibility_rays: {}", visibilityRays)}),
+                16, 16);
     const Voxels voxels(chain);
-    double faces = 0;
+    const double face = double(voxels.grid.voxelSize) * voxels.grid.voxelSize;
+    std::vector<double> areas;
     for (const gpu::VoxelMaterial& m : voxels.materials)
-        for (int axis = 0; axis < 3; ++axis) faces += m.unoccludedPositive[axis] + m.unoccludedNegative[axis];
-    return faces * voxels.grid.voxelSize * voxels.grid.voxelSize;
+        for (int axis = 0; axis < 3; ++axis) {
+            areas.push_back(m.unoccludedPositive[axis] * face);
+            areas.push_back(m.unoccludedNegative[axis] * face);
+        }
+    return areas;
+}
+
+double visibleArea(int copies, bool hasPart, float rise) {
+    const std::vector<double> areas = visibleAreas(copies, hasPart, rise, 64);
+    return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
 TEST(ThinWalls, SurfacesThatCoincideHaveTheAreaOfOne) {
@@ -112,6 +125,18 @@ TEST(ThinWalls, SurfacesThatCoincideHaveTheAreaOfOne) {
         EXPECT_NEAR(visibleArea(3, false, rise) / one, 1.0, 0.01) << rise;
         EXPECT_NEAR(visibleArea(1, true, rise) / one, 1.0, 0.01) << rise;
     }
+}
+
+TEST(ThinWalls, CopiesOfASurfaceHaveItsAreaInEachVoxel) {
+    const std::vector<double> one = visibleAreas(1, false, 0.37f, 8), two = visibleAreas(2, false, 0.37f, 8);
+    ASSERT_EQ(two.size(), one.size());
+    double difference2 = 0, sum2 = 0;
+    for (size_t i = 0; i < one.size(); ++i) {
+        difference2 += (two[i] - one[i]) * (two[i] - one[i]);
+        sum2 += one[i] * one[i];
+    }
+    // The numbers of copies' probes may differ by one a triangle.
+    EXPECT_LT(std::sqrt(difference2 / sum2), 0.02);
 }
 
 }  // namespace

@@ -18,11 +18,18 @@ layout(push_constant, scalar) uniform Push {
     uint seed;
 } push;
 
+// Seed of a triangle's points, from where it is and not from its number: coincident copies of a triangle have the same
+// points, of whose rays each hits one copy. Points of their own would count both copies in some places and none in others.
+uint pointSeed(uint triangle) {
+    const uvec3 bits = floatBitsToUint(surfacePoint(triangle, vec2(1.0 / 3.0)).position);
+    return hashCombine(hashCombine(hashCombine(push.seed, bits.x), bits.y), bits.z);
+}
+
 void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const uvec2 candidate = candidates.data[i];
-    const vec2 u = sobol2(candidate.y, hashCombine(push.seed, candidate.x));
+    const vec2 u = sobol2(candidate.y, pointSeed(candidate.x));
     const SurfacePoint s = surfacePoint(candidate.x, trianglePoint(u));
     if (s.geometricNormal == vec3(0.0) || alphaCut(sceneMaterials.data[s.material], s)) return;
     if (!isOccupied(push.grid, voxelAt(push.grid, s.position))) return;

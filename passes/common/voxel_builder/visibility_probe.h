@@ -26,8 +26,8 @@ namespace voxray {
 ///
 /// with a the axis of the face and n a point's unit normal, since a surface of area A has an area of A n_a²
 /// at the face. Of coincident surfaces that face the same way a ray hits one, so that their area counts once.
-/// Gaps narrower than a voxel count as closed. A triangle's probes depend on that triangle only: they don't
-/// change when other surfaces move.
+/// Gaps narrower than a voxel count as closed. A triangle's probes depend on where that triangle is and on nothing
+/// else: they don't change when other surfaces move, and copies of a triangle in the same place have the same ones.
 class VisibilityProbe {
  public:
     explicit VisibilityProbe(ProgramOwner& owner);
