@@ -1,19 +1,16 @@
-// What lookups read of a surfel, in 64 bits, since their cost is that of reading surfels.
+// What lookups need of a surfel, in few bits.
 #ifndef VOXRAY_PACKED_SURFEL_GLSL
 #define VOXRAY_PACKED_SURFEL_GLSL
 
 #include "shaders/scene/octahedral.glsl"
 
-// x: position in the surfel's voxel, 10 bits per axis, and whether the surfel is occluded; y: octahedral normal in 24
-// bits, and mean inverse distance in the highest 8. A vector is one load for software Vulkan, a struct would be two.
+// What is known before the light. x: position in the surfel's voxel, 10 bits per axis, and whether the surfel is occluded;
+// y: octahedral normal in 24 bits, and mean inverse distance in the highest 8.
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PackedSurfels { uvec2 data[]; };
-
-// The same, and z: irradiance by packRadiosity().
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LitSurfels { uvec3 data[]; };
 
 // A surfel on the border of two voxels may belong to the other one: positions range from one voxel before its own to
 // one behind it.
-const float STEPS_PER_VOXEL = 1024.0 / 3.0;
+const float STEPS_PER_VOXEL = 1024.0 / 3.0, VOXELS_PER_STEP = 3.0 / 1024.0;
 
 uint packNormal(vec3 normal) {
     const uint bits = toOctahedral(normal);
@@ -28,8 +25,10 @@ uvec2 packSurfel(vec3 inVoxel, vec3 normal, bool isOccluded) {
     return uvec2(steps.x | steps.y << 10 | steps.z << 20 | uint(isOccluded) << 30, packNormal(normal));
 }
 
-vec3 unpackPosition(uint x) {
-    return (vec3(x & 1023u, x >> 10 & 1023u, x >> 20 & 1023u) + 0.5) / STEPS_PER_VOXEL - 1.0;
+// From `origin`, in voxels from the voxel's corner.
+vec3 unpackPosition(uint x, vec3 origin) {
+    const vec3 steps = vec3(x & 1023u, x >> 10 & 1023u, x >> 20 & 1023u);
+    return steps * VOXELS_PER_STEP + (0.5 * VOXELS_PER_STEP - 1.0 - origin);
 }
 
 bool isOccludedSurfel(uint x) { return (x >> 30) != 0u; }
@@ -49,6 +48,31 @@ uint packInverseDistance(uint y, float inverseDistance) {
 float unpackInverseDistance(uint y) {
     const uint steps = y >> 24;
     return steps == 0u ? 0.0 : MIN_INVERSE_DISTANCE * exp2((float(steps) - 1.0) / STEPS_PER_OCTAVE);
+}
+
+// A surfel with its light, in two words of 64 bits, of which software Vulkan reads eight at once: position and whether it is
+// occluded as above, and irradiance by packRadiosity(); the normal by 16 bits a coordinate, and the high bits of the mean
+// inverse distance as a float, which need less work to unpack.
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer LitSurfels { u64vec2 data[]; };
+
+struct LitSurfel {
+    uint position;  // unpackPosition(), isOccludedSurfel()
+    uint radiosity;
+    vec3 normal;
+    float inverseDistance;  // Mean, 1/voxel.
+};
+
+u64vec2 packLit(uvec2 surfel, uint radiosity) {
+    const vec3 n = unpackNormal(surfel.y);
+    const uint distanceBits = (floatBitsToUint(unpackInverseDistance(surfel.y)) + 0x8000u) & 0xffff0000u;
+    const uvec2 words = uvec2(packSnorm2x16(n.xy), (packSnorm2x16(vec2(n.z, 0.0)) & 0xffffu) | distanceBits);
+    return u64vec2(packUint2x32(uvec2(surfel.x, radiosity)), packUint2x32(words));
+}
+
+LitSurfel unpackLit(u64vec2 words) {
+    const uvec2 a = unpackUint2x32(words.x), b = unpackUint2x32(words.y);
+    const vec3 n = vec3(ivec3(b.x << 16, b.x, b.y << 16) >> 16) * (1.0 / 32767.0);
+    return LitSurfel(a.x, a.y, n, uintBitsToFloat(b.y & 0xffff0000u));
 }
 
 #endif

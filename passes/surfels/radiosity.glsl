@@ -14,7 +14,7 @@ uint packRadiosity(vec3 radiosity) {
 vec3 unpackRadiosity(uint bits) {
     const vec3 mantissas = vec3(bits & 255u, bits >> 8 & 255u, bits >> 16 & 255u);
     // The exponent's power of two, by the bits of a float; 0 below 2^-126
-    return mantissas * (uintBitsToFloat((max(bits >> 24, 1u) - 1u) << 23) / 255.0);
+    return mantissas * (uintBitsToFloat((max(bits >> 24, 1u) - 1u) << 23) * (1.0 / 255.0));
 }
 
 #endif

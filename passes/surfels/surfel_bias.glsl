@@ -11,8 +11,8 @@ float normalBias(vec3 normalA, vec3 normalB) {
 
 // 2 sin² of the larger angle between one of the surfaces and the line between the points: 0 in a common plane; straight
 // above a surface 2, the squared difference of two independent values of relative variance 1. Geometric normals.
-float planeBias(vec3 positionA, vec3 normalA, vec3 positionB, vec3 normalB) {
-    const vec3 offset = positionB - positionA;
+// @param offset from the one point to the other.
+float planeBias(vec3 offset, vec3 normalA, vec3 normalB) {
     const float squared = dot(offset, offset), height = max(abs(dot(normalA, offset)), abs(dot(normalB, offset)));
     return squared > 0.0 ? 2.0 * min(height * height / squared, 1.0) : 0.0;
 }
@@ -25,7 +25,7 @@ float distanceBias(float squaredDistance, float inverseDistance) {
 
 // The sum of the first two, for points whose shading normals are the geometric ones.
 float surfelBias(vec3 positionA, vec3 normalA, vec3 positionB, vec3 normalB) {
-    return planeBias(positionA, normalA, positionB, normalB) + normalBias(normalA, normalB);
+    return planeBias(positionB - positionA, normalA, normalB) + normalBias(normalA, normalB);
 }
 
 #endif

@@ -26,7 +26,7 @@ struct SurfelsByVoxel : Resource {
 struct SurfelIrradiance : Resource {
     std::string indexedBy() const override { return "surfels_by_voxel"; }
 
-    LargeBuffer lit;             ///< LitSurfels (packed_surfel.glsl): indirect irradiance, W/m²; 12 bytes each.
+    LargeBuffer lit;             ///< LitSurfels (packed_surfel.glsl): indirect irradiance, W/m²; 16 bytes each.
     float relativeVariance = 0;  ///< Of a surfel's irradiance before smooth_surfels, roughly. Set in plan().
 };
 

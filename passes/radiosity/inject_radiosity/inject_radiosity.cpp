@@ -14,7 +14,7 @@ namespace voxray {
 namespace {
 
 constexpr uint64_t kSurfelIrradianceBytes = 4 * sizeof(float), kRadiosityBytes = sizeof(uint32_t),
-                   kLitBytes = 3 * sizeof(uint32_t);
+                   kLitBytes = 2 * sizeof(uint64_t);
 
 }  // namespace
 

@@ -19,5 +19,5 @@ void main() {
     if (i >= push.count) return;
     const uint sortedIndex = sortedIndices.data[push.firstSurfel + i];
     if (sortedIndex == 0xffffffffu) return;
-    lit.data[sortedIndex] = uvec3(packed_.data[sortedIndex], packRadiosity(indirect.data[i].rgb));
+    lit.data[sortedIndex] = packLit(packed_.data[sortedIndex], packRadiosity(indirect.data[i].rgb));
 }

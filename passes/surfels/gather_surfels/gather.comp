@@ -11,17 +11,18 @@
 #include "passes/surfels/gather_surfels/ambiguous_surface.h"
 #include "shaders/scene/sampling.glsl"
 #include "passes/surfels/occlusion_ray.glsl"
-#include "passes/surfels/packed_surfel.glsl"
+#include "passes/surfels/gather_surfels/voxel_sides.glsl"
 #include "passes/surfels/radiosity.glsl"
 #include "passes/surfels/surfel_bias.glsl"
 #include "shaders/voxels/voxel_irradiance.glsl"
-layout(local_size_x = 8, local_size_y = 8) in;
+#extension GL_EXT_control_flow_attributes : require
+layout(local_size_x = 4, local_size_y = 16) in;  // Neighbors in both directions share voxels.
 
 uniform sampler2D position;
 uniform sampler2D normal;
 uniform sampler2D geometricNormal;
 uniform sampler2D albedo;
-readonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;
+layout(scalar) readonly buffer SidesRef { VoxelSides sides; };
 layout(scalar) readonly buffer LitRef { LitSurfels lit; };
 #if TESTS_OCCLUSION
 buffer Count { uint value; } count;
@@ -57,6 +58,20 @@ struct WeightedSum {
     float weights;
 };
 
+void add(inout WeightedSum sum, WeightedSum weighted) {
+    sum.irradiance += weighted.irradiance;
+    sum.weights += weighted.weights;
+}
+
+uint lowBits(uint count) { return count < 32u ? (1u << count) - 1u : ~0u; }
+
+// Goes on to a voxel's next 32 surfels where none is left of those before.
+void skipEmpty(inout uint begin, inout uint left, uint end) {
+    if (left != 0u || end - begin <= 32u) return;
+    begin += 32u;
+    left = lowBits(end - begin);
+}
+
 // Sums up the surfels around a surface.
 void lookUp(PixelSurface surface, out WeightedSum unoccluded, out WeightedSum occluded) {
     const vec3 center = (surface.position - push.grid.origin) / push.grid.voxelSize - 0.5, fraction = fract(center);
@@ -69,21 +84,22 @@ void lookUp(PixelSurface surface, out WeightedSum unoccluded, out WeightedSum oc
         const uint voxel = voxelNumber(push.grid, first + corner);
         if (voxel == NO_VOXEL) continue;
         const float trilinear = weights.x * weights.y * weights.z;
-        const uvec2 range = surfelRanges.data[voxel];
+        const Sides ofVoxel = unpackSides(sides.data[voxel]);
         const vec3 inVoxel = fraction + 0.5 - vec3(corner);
-        for (uint i = range.x; i < range.y; ++i) {
-            const uvec3 s = surfels.data[i];
-            const vec3 n = unpackNormal(s.y), surfelPosition = unpackPosition(s.x), offset = surfelPosition - inVoxel;
+        // Bits of up to 32 surfels from `begin` on
+        uint begin = ofVoxel.begin, left = mayFace(ofVoxel, surface.geometricNormal) & lowBits(ofVoxel.end - begin);
+        for (skipEmpty(begin, left, ofVoxel.end); left != 0u; skipEmpty(begin, left, ofVoxel.end)) {
+            const LitSurfel s = unpackLit(surfels.data[begin + uint(findLSB(left))]);
+            left &= left - 1u;
+            const vec3 offset = unpackPosition(s.position, inVoxel), n = s.normal;
             if (dot(n, surface.geometricNormal) <= 0.0) continue;
-            const float bias = planeBias(inVoxel, surface.geometricNormal, surfelPosition, n) +
-                               normalBias(surface.normal, n) +
-                               distanceBias(dot(offset, offset), unpackInverseDistance(s.y));
+            const float bias = planeBias(offset, surface.geometricNormal, n) + normalBias(surface.normal, n) +
+                               distanceBias(dot(offset, offset), s.inverseDistance);
             const float weight = trilinear * push.noise / (push.noise + bias);
-            const vec3 weighted = weight * unpackRadiosity(s.z);
-            if (isOccludedSurfel(s.x))
-                occluded = WeightedSum(occluded.irradiance + weighted, occluded.weights + weight);
-            else
-                unoccluded = WeightedSum(unoccluded.irradiance + weighted, unoccluded.weights + weight);
+            const WeightedSum weighted = WeightedSum(weight * unpackRadiosity(s.radiosity), weight);
+            // Devices that compute several pixels at once skip the other kind where none has it
+            [[dont_flatten]] if (isOccludedSurfel(s.position)) add(occluded, weighted);
+            [[dont_flatten]] if (!isOccludedSurfel(s.position)) add(unoccluded, weighted);
         }
     }
 }
@@ -122,7 +138,7 @@ void main() {
         for (int t = 0; t < TEXELS; ++t) {
             const vec3 offset = positions[t] - origin;
             if (!isPending[t] || length(offset) >= MERGE_DISTANCE * push.grid.voxelSize) continue;
-            const float bias = planeBias(vec3(0.0), ng, offset, ng) + normalBias(n, normals[t]);
+            const float bias = planeBias(offset, ng, ng) + normalBias(n, normals[t]);
             if (t != firstTexel && bias >= push.noise) continue;
             isPending[t] = false;
             surface.position += positions[t];

@@ -1,12 +1,15 @@
 #include <algorithm>
 
 #include "graph/registry.h"
+#include "passes/common/compute/large_buffer.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/voxels/voxels.h"
 #include "passes/surfels/gather_surfels/ambiguous_surface.h"
 #include "passes/surfels/surfels_by_voxel.h"
 
 namespace voxray {
+
+static constexpr uint64_t kSidesBytes = 4 * sizeof(uint32_t);  ///< Of a voxel.
 
 /// Ambiguous surfaces of a band of rows, unless one row may have more: scratch memory does not grow with the
 /// image.
@@ -28,22 +31,28 @@ class GatherSurfels final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    /// Finds which surfels of each voxel are on the same side of a surface.
+    void findSides(PassContext& context);
+
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels, by which surfels are found"};
     In<VoxelIrradiance> irradiance_{*this, "irradiance", "light of voxels, read where no surfel is near"};
     In<SurfelsByVoxel> surfels_{*this, "surfels_by_voxel", "the surfels of each voxel"};
     In<SurfelIrradiance> light_{*this, "surfel_irradiance", "light that arrives at surfels"};
     Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of indirect light"};
+    Kernel findSides_{*this, "find_sides.comp"};
     Kernel gather_{*this, "gather.comp"};
     Kernel resolve_{*this, "resolve.comp"};
     bool testsOcclusion_ = false;  ///< Whether there are occluded surfels.
     uint32_t bandRows_ = 1;
+    LargeBuffer sides_;     ///< By voxel (voxel_sides.glsl).
     Buffer count_, first_;  ///< Scratch: number of ambiguous surfaces, and the first of each pixel.
     Buffer ambiguous_, occlusionRays_, occluded_;  ///< Scratch, by ambiguous surface.
 };
 
 void GatherSurfels::plan(PassPlan& plan) {
     plan[indirect_].lightBounces = plan[irradiance_].lightBounces;
+    plan.estimate(plan[voxels_].estimatedCount * kSidesBytes);
     testsOcclusion_ = plan[surfels_].hasOccludedSurfels;
     const uint32_t samples = plan[gbuffer_].samples, perPixel = samples * samples, width = plan.frame.width;
     bandRows_ = plan.frame.height;
@@ -62,9 +71,20 @@ void GatherSurfels::plan(PassPlan& plan) {
     resolve_.compileIf(testsOcclusion_);
 }
 
+void GatherSurfels::findSides(PassContext& context) {
+    const uint32_t voxels = context[voxels_].voxelCount;
+    ensureSize(sides_, context.device, "sides of surfels", voxels * kSidesBytes);
+    context.dispatch(findSides_, voxels,
+                     {{"surfelRanges", context[surfels_].ranges},
+                      {"LitRef", context[light_].lit.ref()},
+                      {"SidesRef", sides_.ref()},
+                      {"voxels", voxels}});
+}
+
 void GatherSurfels::record(PassContext& context) {
     const VoxelIrradiance& irradiance = context[irradiance_];
     const Image& result = context[indirect_].image;
+    if (context.changed(surfels_)) findSides(context);
     for (uint32_t row = 0; row < context.frame.height; row += bandRows_) {
         const glm::uvec2 extent(context.frame.width, std::min(bandRows_, context.frame.height - row));
         if (testsOcclusion_) context.stream.fill(count_, 0);
@@ -72,7 +92,7 @@ void GatherSurfels::record(PassContext& context) {
                          {context.scene,
                           context[gbuffer_],
                           context[voxels_],
-                          {"surfelRanges", context[surfels_].ranges},
+                          {"SidesRef", sides_.ref()},
                           {"VoxelFluxRef", irradiance.indirect.ref()},
                           {"voxelArea", irradiance.area},
                           {"LitRef", context[light_].lit.ref()},

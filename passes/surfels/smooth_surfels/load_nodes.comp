@@ -24,6 +24,6 @@ void main() {
 #else
     const uint surfel = node;
 #endif
-    const uvec3 s = lit.data[surfel];
-    nodes.data[node] = uvec2(floatBitsToUint(unpackInverseDistance(s.y)), s.z);
+    const LitSurfel s = unpackLit(lit.data[surfel]);
+    nodes.data[node] = uvec2(floatBitsToUint(s.inverseDistance), s.radiosity);
 }

@@ -7,7 +7,7 @@
 namespace voxray {
 namespace {
 
-constexpr uint64_t kNeighborhoodBytes = 4 * sizeof(float), kLitBytes = 3 * sizeof(uint32_t),
+constexpr uint64_t kNeighborhoodBytes = 4 * sizeof(float), kLitBytes = 2 * sizeof(uint64_t),
                    kNodeBytes = 2 * sizeof(uint32_t);
 
 }  // namespace

@@ -22,5 +22,6 @@ void main() {
 #else
     const uint surfel = node;
 #endif
-    result.data[surfel] = uvec3(lit.data[surfel].xy, nodes.data[node].y);
+    const u64vec2 words = lit.data[surfel];
+    result.data[surfel] = u64vec2(packUint2x32(uvec2(unpackUint2x32(words.x).x, nodes.data[node].y)), words.y);
 }
