@@ -88,14 +88,7 @@ void AccumulateHits::plan(PassPlan& plan) {
     }
 
     const NoisyIrradiance& noisy = plan[noisy_];
-    const uint32_t samples = plan[gbuffer_].samples;
-    NoisyIrradiance& result = plan[accumulated_];
-    result.lightBounces = noisy.lightBounces;
-    result.spacing = noisy.spacing;
-    result.blockSize = noisy.blockSize;
-    plan.image(result.irradiance, "accumulated irradiance", NoisyIrradiance::desc(plan.frame, samples));
-    if (noisy.blockSize > 0)
-        plan.buffer(result.moments, "moments of rays", noisy.momentsBytes(gbufferExtent(plan.frame, samples)));
+    plan[accumulated_].planAccumulated(plan, noisy, plan[gbuffer_].samples);
     plan[indirect_].lightBounces = noisy.lightBounces;
     if (plan[indirect_].isRead) plan.frameImage(indirect_);
 }
@@ -131,8 +124,7 @@ void AccumulateHits::record(PassContext& context) {
                           {"slot", slot_},
                           {"frames", frames_}});
 
-    // This frame's moments, as the variance of a single ray does not depend on the number of rays
-    if (result.moments) context.stream.copy(context[noisy_].moments, result.moments, result.moments.bytes());
+    result.copyVariance(context.stream, context[noisy_]);
     if (const FrameImage& indirect = context[indirect_]; indirect.isRead)
         resolve_.record(context, context[gbuffer_], result.irradiance, indirect.image);
     context.report("frames of hits", frames_);
