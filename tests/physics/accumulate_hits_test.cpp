@@ -69,6 +69,37 @@ TEST(AccumulateHits, DoNotLag) {
     EXPECT_NEAR(mean(chain.image("indirect")) / mean(expected), 1, 0.02);
 }
 
+TEST(AccumulateHits, HaveTheMeanWhileFacesGetTheirLight) {
+    // With few rays faces get their light over many frames. Rays that hit a face before go on as paths, and those from
+    // near it differ from what it holds: neither may count twice what the face gets later
+    const auto state = builtin("cornell", "{lights: point}");
+    const auto graph = [](const std::string& budget) {
+        return graphYaml({"gbuffer", "voxelize, resolution: 32", "trace_gather_rays, rays_per_block: 4",
+                          "light_hit_faces, points_per_face: 4, bounces: 5, update_budget: " + budget,
+                          "gather_rays, source: hit_faces", "accumulate_hits, history: 16"});
+    };
+    const auto meanOf = [&](Chain& chain, uint32_t first, uint32_t last) {
+        double sum = 0;
+        for (uint32_t frame = 1; frame <= last; ++frame) {
+            chain.runFrame(frame);
+            if (frame >= first) sum += mean(chain.image("indirect")) / (last - first + 1);
+        }
+        return sum;
+    };
+    Chain lit(state, graph("64"), 48, 48);
+    const double expected = meanOf(lit, 32, 48);
+    for (const auto& [first, last] : {std::pair{4u, 15u}, std::pair{20u, 31u}}) {
+        double sum = 0;
+        constexpr uint64_t kSeeds = 3;
+        for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
+            Chain chain(state, graph("0.25"), 48, 48, seed);
+            sum += meanOf(chain, first, last) / kSeeds;
+        }
+        std::printf("frames %u to %u: %.4f of the mean of lit faces\n", first, last, sum / expected);
+        EXPECT_NEAR(sum / expected, 1, 0.03) << first;
+    }
+}
+
 TEST(AccumulateHits, BeginAnewWhereTheCameraMoves) {
     Chain chain("cornell", "{lights: point}", hitsGraph("8"));
     chain.runFrames(12);

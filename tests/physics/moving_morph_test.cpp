@@ -63,6 +63,21 @@ TEST(MovingMorph, EveryPassIsAsMadeThere) {
     }
 }
 
+TEST(MovingMorph, SumsOfLightAreInUnitsOfALampThatGrows) {
+    const auto scene = std::make_shared<Scene>(*morphingBall());
+    scene->meshes.back().material = uint32_t(scene->materials.size());
+    scene->materials.emplace_back().emission = glm::vec3(5);
+    for (const std::string inject : {"inject_camera_rays, rays_per_image: 1024, bounces: 1",
+                                     "inject_voxel_rays, paths_per_point: 2, bounces: 1"}) {
+        const std::string graph =
+            graphYaml({"gbuffer", "voxelize, resolution: 16", "place_surfels, points_per_voxel: 1", inject,
+                       "gather_irradiance", "direct_shadow_rays", "composite"});
+        const auto moving = chainAt(scene, 0, graph);
+        moving->goTo(1.9);
+        EXPECT_TRUE(sameBits(moving->image("final").data, chainAt(scene, 1.9, graph)->image("final").data)) << inject;
+    }
+}
+
 /// Mean difference of two images over the mean of the second.
 double differenceOf(const ImageF& a, const ImageF& b) {
     double sum = 0;

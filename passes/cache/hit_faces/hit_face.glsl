@@ -3,14 +3,13 @@
 #ifndef VOXRAY_HIT_FACE_GLSL
 #define VOXRAY_HIT_FACE_GLSL
 
+#include "passes/cache/hit_faces/face_point_types.h"
 #ifdef CACHE_CELLS
 #include "passes/cache/radiance_cache.glsl"
 #else
 #include "shaders/voxels/face.glsl"
 #include "shaders/voxels/voxel_levels.glsl"
 #endif
-
-#define NO_FACE 0xffffffffu  // In place of a face or of its number.
 
 // By face: its number among the lit ones, or NO_FACE (passes/cache/hit_faces/hit_face_light.h).
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FaceNumbers { uint data[]; };

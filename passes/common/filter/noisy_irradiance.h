@@ -46,6 +46,28 @@ struct NoisyIrradiance : Resource {
         return uint64_t(count.x) * count.y * sizeof(gpu::RayStatistics);
     }
 
+    /// Plans this as the mean over frames of `source`, which has the variance of rays of a frame. @param samples of the
+    /// G-buffer.
+    void planAccumulated(PassPlan& plan, const NoisyIrradiance& source, uint32_t samples) {
+        lightBounces = source.lightBounces;
+        spacing = source.spacing;
+        blockSize = source.blockSize;
+        hasStatistics = source.hasStatistics;
+        const glm::uvec2 texels = gbufferExtent(plan.frame, samples);
+        plan.image(irradiance, "accumulated irradiance", desc(plan.frame, samples));
+        if (hasStatistics)
+            plan.buffer(statistics, "statistics of rays", statisticsBytes(texels));
+        else if (blockSize > 0)
+            plan.buffer(moments, "moments of rays", momentsBytes(texels));
+    }
+    /// Takes over the variance of a ray, which does not depend on the number of rays.
+    void copyVariance(CommandStream& stream, const NoisyIrradiance& source) const {
+        if (hasStatistics)
+            stream.copy(source.statistics, statistics, statistics.bytes());
+        else if (blockSize > 0)
+            stream.copy(source.moments, moments, moments.bytes());
+    }
+
     std::vector<const Image*> checkedImages() const override { return {&irradiance}; }
     std::vector<const Buffer*> checkedBuffers() const override { return {&moments, &statistics}; }
     std::vector<Elements> elements() const override {

@@ -1,6 +1,6 @@
 // Irradiance of each texel of the G-buffer by its gather rays of up to `frames` frames: hits are kept, and reflect the light
 // that their faces have in this frame. What a ray brought beyond the light of its face, in the frame in which it was traced,
-// is averaged over frames: all of it where no face is lit.
+// is kept with its hit: all of it where no face was lit.
 #include "passes/cache/hit_faces/hit_face_light.glsl"
 #include "passes/final_gather/accumulate_hits/kept_hit_types.h"
 #include "passes/surfels/surfel_at_hit.glsl"
@@ -11,7 +11,6 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 layout(scalar) readonly buffer Light { vec4 data[]; } light;  // GatherLight::light
 layout(scalar) buffer Kept { KeptHit data[]; } kept;          // All rays of slot 0, of slot 1 and so on.
-layout(scalar) buffer Rest { vec4 data[]; } rest;             // By ray: mean over frames, W/m².
 uniform sampler2D position;
 layout(rgba32f) writeonly uniform image2D result;  // W/m², number of rays.
 layout(push_constant, scalar) uniform Push {
@@ -22,19 +21,20 @@ layout(push_constant, scalar) uniform Push {
     uint frames;
 } push;
 
-vec3 reflected(KeptHit hit) {
-    return hit.face == NO_FACE ? vec3(0.0) : unpackUnorm4x8(hit.reflectance).rgb * hitFaceIrradiance.data[hit.face].rgb;
+vec3 reflected(uint face, uint reflectance) {
+    return face == NO_FACE ? vec3(0.0) : unpackUnorm4x8(reflectance).rgb * hitFaceIrradiance.data[face].rgb;
 }
 
-KeptHit keptHit(Hit hit, vec3 origin) {
+// `brought`: by the hit's ray, W/m².
+KeptHit keptHit(Hit hit, vec3 origin, vec3 brought) {
     Surfel s;
     vec3 normal;
     float offset;
-    KeptHit result_ = KeptHit(NO_FACE, 0u);
-    if (!surfelAtHit(hit, origin, s, normal, offset)) return result_;
-    result_.face = faceNumber(hitFace(s.position, normal));
-    result_.reflectance = packUnorm4x8(vec4(s.reflectance, 0.0));
-    return result_;
+    if (!surfelAtHit(hit, origin, s, normal, offset)) return KeptHit(NO_FACE, 0u, brought);
+    const uint face = faceNumber(hitFace(s.position, normal)), reflectance = packUnorm4x8(vec4(s.reflectance, 0.0));
+    // From a face without light the ray went on as a path, and brought what the face will have
+    if (face == NO_FACE || hitFaceIrradiance.data[face].w == 0.0) return KeptHit(NO_FACE, 0u, brought);
+    return KeptHit(face, reflectance, brought - reflected(face, reflectance));
 }
 
 void main() {
@@ -53,16 +53,12 @@ void main() {
     float rays = 0.0;
     for (uint ray = own.x; ray < own.y; ++ray) {
         if (light.data[ray].w < 0.0) continue;
-        const KeptHit now = keptHit(hits.data[ray], origin);
-        kept.data[push.slot * allRays + ray] = now;
-        const vec3 before = push.frames == 1u ? vec3(0.0) : rest.data[ray].rgb;
-        const vec3 mean = mix(before, light.data[ray].rgb - reflected(now), 1.0 / float(push.frames));
-        rest.data[ray] = vec4(mean, 0.0);
-        vec3 bySlots = reflected(now);
-        for (uint slot = 0u; slot < push.frames; ++slot)
-            if (slot != push.slot) bySlots += reflected(kept.data[slot * allRays + ray]);
-        sum += bySlots / float(push.frames) + mean;
+        kept.data[push.slot * allRays + ray] = keptHit(hits.data[ray], origin, light.data[ray].rgb);
+        for (uint slot = 0u; slot < push.frames; ++slot) {
+            const KeptHit hit = kept.data[slot * allRays + ray];
+            sum += hit.rest + reflected(hit.face, hit.reflectance);
+        }
         rays += 1.0;
     }
-    imageStore(result, ivec2(texel), vec4(max(sum / max(rays, 1.0), vec3(0.0)), rays * float(push.frames)));
+    imageStore(result, ivec2(texel), vec4(max(sum / max(rays * float(push.frames), 1.0), vec3(0.0)), rays * float(push.frames)));
 }

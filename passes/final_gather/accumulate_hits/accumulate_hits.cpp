@@ -39,7 +39,7 @@ class AccumulateHits final : public Pass {
         uint32_t history = 16;
         static constexpr auto schema() {
             return std::tuple{field("history", &Params::history,
-                                    "Frames in the mean at most, this one included; 8 bytes a gather ray each.", 1u,
+                                    "Frames in the mean at most, this one included; 20 bytes a gather ray each.", 1u,
                                     64u)};
         }
     };
@@ -64,7 +64,7 @@ class AccumulateHits final : public Pass {
     Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of this irradiance"};
     Kernel accumulate_{*this, "accumulate_hits.comp"};
     IrradianceResolve resolve_{*this};
-    std::vector<Buffer> kept_, rest_;  ///< By batch of gather rays; KeptHit and vec4.
+    std::vector<Buffer> kept_;  ///< By batch of gather rays: KeptHit.
     // Of the frame before
     uint32_t frames_ = 0, slot_ = 0;
     std::optional<Camera> camera_;
@@ -80,22 +80,13 @@ void AccumulateHits::plan(PassPlan& plan) {
     if (!plan[faces_].keepsNumbers)
         throw Error("{}: light_hit_faces makes its faces anew in each frame; give it an 'update_budget'", kName);
     kept_ = std::vector<Buffer>(hits.batches.size());
-    rest_ = std::vector<Buffer>(hits.batches.size());
     for (uint32_t b = 0; b < hits.batches.size(); ++b) {
         const uint64_t rays = uint64_t(hits.batchBlocks(b)) * hits.layout.raysPerBlock;
         plan.buffer(kept_[b], "kept hits", rays * params_.history * sizeof(gpu::KeptHit));
-        plan.buffer(rest_[b], "light that faces lack", rays * sizeof(glm::vec4));
     }
 
     const NoisyIrradiance& noisy = plan[noisy_];
-    const uint32_t samples = plan[gbuffer_].samples;
-    NoisyIrradiance& result = plan[accumulated_];
-    result.lightBounces = noisy.lightBounces;
-    result.spacing = noisy.spacing;
-    result.blockSize = noisy.blockSize;
-    plan.image(result.irradiance, "accumulated irradiance", NoisyIrradiance::desc(plan.frame, samples));
-    if (noisy.blockSize > 0)
-        plan.buffer(result.moments, "moments of rays", noisy.momentsBytes(gbufferExtent(plan.frame, samples)));
+    plan[accumulated_].planAccumulated(plan, noisy, plan[gbuffer_].samples);
     plan[indirect_].lightBounces = noisy.lightBounces;
     if (plan[indirect_].isRead) plan.frameImage(indirect_);
 }
@@ -123,7 +114,6 @@ void AccumulateHits::record(PassContext& context) {
                           {"hits", hits.batches[b]},
                           {"light", context[rayLight_].light[b]},
                           {"kept", kept_[b]},
-                          {"rest", rest_[b]},
                           {"result", result.irradiance},
                           {"layout", hits.layout},
                           {"firstBlock", b * hits.blocksPerBatch},
@@ -131,8 +121,7 @@ void AccumulateHits::record(PassContext& context) {
                           {"slot", slot_},
                           {"frames", frames_}});
 
-    // This frame's moments, as the variance of a single ray does not depend on the number of rays
-    if (result.moments) context.stream.copy(context[noisy_].moments, result.moments, result.moments.bytes());
+    result.copyVariance(context.stream, context[noisy_]);
     if (const FrameImage& indirect = context[indirect_]; indirect.isRead)
         resolve_.record(context, context[gbuffer_], result.irradiance, indirect.image);
     context.report("frames of hits", frames_);

@@ -9,6 +9,7 @@ VOXRAY_SHARED_BEGIN
 struct KeptHit {
     uint face;         // Number of the face whose light it reads; NO_FACE: none.
     uint reflectance;  // Of the hit, packUnorm4x8.
+    vec3 rest;         // What its ray brought beyond the light of that face then, W/m².
 };
 
 VOXRAY_SHARED_END

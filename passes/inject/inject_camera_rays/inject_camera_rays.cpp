@@ -63,7 +63,6 @@ class InjectCameraRays final : public Pass {
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels to light"};
     Out<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
-    std::vector<LightSource> sources_;
     SurfelInjection injection_{*this};
     SurfelPaths paths_{*this};
     ImageRays imageRays_{*this};
@@ -74,7 +73,7 @@ class InjectCameraRays final : public Pass {
 
 void InjectCameraRays::plan(PassPlan& plan) {
     plan[irradiance_].lightBounces = params_.bounces;
-    sources_ = requireLightSources(*plan.frame.scene, kName);
+    requireLightSources(*plan.frame.scene, kName);
     const uint32_t batch = std::min(params_.raysPerImage, kMaxBatchRays);
     injection_.plan(plan, kName, params_, plan[voxels_]);
     paths_.plan(plan, batch, params_.lightSamples, true);
@@ -89,7 +88,8 @@ void InjectCameraRays::plan(PassPlan& plan) {
 }
 
 void InjectCameraRays::record(PassContext& context) {
-    const PathScene scene{context[voxels_], sources_};
+    const std::vector<LightSource> sources = lightSources(*context.frame.scene);  // Emissive surfaces may grow
+    const PathScene scene{context[voxels_], sources};
     injection_.begin(context, scene, context[irradiance_]);
     for (uint32_t first = 0; first < params_.raysPerImage; first += kMaxBatchRays) {
         traceCameraRays(context, first, std::min(kMaxBatchRays, params_.raysPerImage - first));

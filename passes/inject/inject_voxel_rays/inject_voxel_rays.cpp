@@ -135,7 +135,9 @@ void InjectVoxelRays::plan(PassPlan& plan) {
 }
 
 void InjectVoxelRays::record(PassContext& context) {
-    const PathScene scene{context[voxels_], sources_};
+    // Emissive surfaces may grow
+    const std::vector<LightSource> sources = shadowMaps_ ? sources_ : lightSources(*context.frame.scene);
+    const PathScene scene{context[voxels_], sources};
     const Surfels& surfels = context[surfels_];
     VoxelIrradiance& irradiance = context[irradiance_];
     injection_.begin(context, scene, irradiance);

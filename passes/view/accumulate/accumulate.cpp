@@ -64,16 +64,7 @@ void Accumulate::plan(PassPlan& plan) {
     const glm::uvec2 texels = gbufferExtent(plan.frame, samples);
     const ImageDesc values{VK_FORMAT_R32G32B32A32_SFLOAT, {texels, 1}};
 
-    NoisyIrradiance& result = plan[accumulated_];
-    result.lightBounces = noisy.lightBounces;
-    result.spacing = noisy.spacing;
-    result.blockSize = noisy.blockSize;
-    plan.image(result.irradiance, "accumulated irradiance", NoisyIrradiance::desc(plan.frame, samples));
-    result.hasStatistics = noisy.hasStatistics;
-    if (noisy.hasStatistics)
-        plan.buffer(result.statistics, "statistics of rays", noisy.statisticsBytes(texels));
-    else if (noisy.blockSize > 0)
-        plan.buffer(result.moments, "moments of rays", noisy.momentsBytes(texels));
+    plan[accumulated_].planAccumulated(plan, noisy, samples);
     FrameImage& indirect = plan[indirect_];
     indirect.lightBounces = noisy.lightBounces;
     if (indirect.isRead) plan.frameImage(indirect_);
@@ -135,11 +126,7 @@ void Accumulate::record(PassContext& context) {
                       {"historyNormal", historyNormal_}});
     hasHistory_ = true;
 
-    // Copy this frame's moments, as the variance of a single ray does not depend on the number of rays
-    if (noisy.hasStatistics)
-        context.stream.copy(noisy.statistics, result.statistics, result.statistics.bytes());
-    else if (noisy.blockSize > 0)
-        context.stream.copy(noisy.moments, result.moments, result.moments.bytes());
+    result.copyVariance(context.stream, noisy);
     if (const FrameImage& indirect = context[indirect_]; indirect.isRead)
         resolve_.record(context, gbuffer, result.irradiance, indirect.image);
 }

@@ -7,10 +7,11 @@ writeonly buffer Rays { uint data[]; } rays;
 layout(push_constant) uniform Push {
     uint points;
     uint threshold;
-    uint shadowRays;
+    uint raysOfNew;
+    uint raysAgain;
 } push;
 
 void main() {
     const uint point = linearIndex();
-    if (point < push.points) rays.data[point] = bins.data[point] == push.threshold ? updateRays(point, push.shadowRays) : 0u;
+    if (point < push.points) rays.data[point] = bins.data[point] == push.threshold ? updateRays(point, push.raysOfNew, push.raysAgain) : 0u;
 }

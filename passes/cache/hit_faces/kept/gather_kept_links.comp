@@ -41,6 +41,6 @@ void main() {
         known += light.w;
     }
     const vec4 light = direct.data[face];
-    irradiance.data[face] = vec4(light.rgb + (known > 0.0 ? sum / known : vec3(0.0)), light.w);
+    irradiance.data[face] = known > 0.0 ? light + vec4(sum / known, 0.0) : vec4(0.0);
 #endif
 }

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <utility>
 
 #include "passes/cache/hit_faces/face_point_types.h"
+#include "passes/common/compute/bit_words.h"
 #include "passes/common/compute/random_seed.h"
 #include "scene/panes.h"
 
@@ -22,17 +24,10 @@ std::vector<LightSource> shiningSources(const std::vector<LightSource>& sources,
 }
 
 /// As SurfelDirectLight traces them.
-uint32_t shadowRaysOfPoint(const std::vector<LightSource>& sources, const SceneState& scene, uint32_t samples) {
+uint32_t shadowRays(const std::vector<LightSource>& sources, uint32_t samples) {
     uint32_t rays = 0;
-    for (const LightSource& source : shadowRaySources(sources, scene))
-        rays += source.kind == LightSource::Punctual ? 1 : samples;
+    for (const LightSource& source : sources) rays += source.kind == LightSource::Punctual ? 1 : samples;
     return rays;
-}
-
-/// Whether a point may have other light than that of punctual lights that it sees, or light of these through panes.
-bool hasOtherLight(const std::vector<LightSource>& sources, const SceneState& scene) {
-    return dimsLight(scene) ||
-           std::ranges::any_of(sources, [](const LightSource& source) { return source.kind != LightSource::Punctual; });
 }
 
 }  // namespace
@@ -46,8 +41,9 @@ KeptFaces::KeptFaces(ProgramOwner& owner, const Params& params)
       agePoints_(owner, "age_points.comp"),
       placeOld_(owner, "place_kept_points.comp", definesOf(params.kind)),
       placeNew_(owner, "place_kept_points.comp", definesOf(params.kind, {{"NEW", "1"}})),
-      storeOld_(owner, "store_points.comp"),
-      storeNew_(owner, "store_points.comp", {{"NEW", "1"}}),
+      storeOthers_(owner, "store_light.comp"),
+      storeOwn_(owner, "store_light.comp", {{"OWN", "1"}}),
+      storeLinks_(owner, "store_links.comp"),
       linkPoints_(owner, "passes/cache/hit_faces/link_points.comp", definesOf(params.kind, {{"KEEP_ALL", "1"}})),
       gatherDirect_(owner, "gather_kept_links.comp", {{"DIRECT", "1"}}),
       gatherLinks_(owner, "gather_kept_links.comp"),
@@ -59,24 +55,21 @@ void KeptFaces::clear(PassContext& context, uint64_t allFaces, HitFaceLight& lig
     context.stream.fill(light.numbers, NO_FACE);
     ++light.generation;
     lights_ = context.scene.uploadedLights;
+    hasChanged_.assign(lights_.size(), false);
     faces_ = 0;
+}
+
+uint32_t KeptFaces::hiddenWords() const {
+    return std::max(uint32_t(bitWords(lights_.size())), 1u);
 }
 
 void KeptFaces::update(PassContext& context, const Store& store, HitFaceLight& light, NewFaces& newFaces,
                        const PointBatch& batch, const std::vector<FaceHits>& hits, const Buffer& lost) {
     const SceneState& scene = *context.frame.scene;
-    Update update{context,
-                  store,
-                  light,
-                  newFaces,
-                  batch,
-                  lost,
-                  randomSeed(context.frame, context.frameIndex),
-                  shiningSources(batch.sources, scene),
-                  0};
-    update.shadowRays = shadowRaysOfPoint(update.sources, scene, batch.samples);
+    Update update{context, store, light, newFaces, batch, lost, randomSeed(context.frame, context.frameIndex), {}};
     ++frame_;
     ageByLights(update);
+    update.lights = lightsOfPoints(batch, scene);
     addFaces(update, hits, true);
     countImportance(update, hits);
     select(update);
@@ -88,6 +81,27 @@ void KeptFaces::update(PassContext& context, const Store& store, HitFaceLight& l
     context.report("points measured again", selection_.again().count);
 }
 
+KeptFaces::LightsOfPoints KeptFaces::lightsOfPoints(const PointBatch& batch, const SceneState& scene) const {
+    LightsOfPoints lights;
+    bool allHaveRays = true;
+    for (const LightSource& source : shadowRaySources(shiningSources(batch.sources, scene), scene)) {
+        const bool isOwn = source.kind == LightSource::Punctual;
+        (isOwn ? lights.all.own : lights.all.others).push_back(source);
+        allHaveRays = allHaveRays && source.kind != LightSource::Tree;
+    }
+    lights.all.rays = shadowRays(lights.all.own, batch.samples) + shadowRays(lights.all.others, batch.samples);
+    // Behind panes, and of lights that are sampled together, it is not known what part of a point's light is whose
+    if (dimsLight(scene) || !allHaveRays) {
+        lights.again = lights.all;
+    } else {
+        std::ranges::copy_if(lights.all.own, std::back_inserter(lights.again.own),
+                             [&](const LightSource& source) { return hasChanged_[source.light]; });
+        lights.again.keepsLight = true;
+        lights.again.rays = uint32_t(lights.again.own.size());
+    }
+    return lights;
+}
+
 void KeptFaces::ageByLights(const Update& update) {
     PassContext& context = update.context;
     const std::vector<gpu::GpuLight>& now = context.scene.uploadedLights;
@@ -95,27 +109,29 @@ void KeptFaces::ageByLights(const Update& update) {
     std::vector<uint32_t> changed;
     for (uint32_t i = 0; i < now.size(); ++i)
         if (std::memcmp(&now[i], &lights_[i], sizeof(gpu::GpuLight)) != 0) changed.push_back(i);
+    for (const uint32_t light : changed) hasChanged_[light] = true;
     const std::vector<gpu::GpuLight> before = std::exchange(lights_, now);
     const uint32_t points = faces_ * params_.pointsPerFace;
     if (changed.empty() || points == 0) return;
-    const uint64_t bytes = now.size() * sizeof(gpu::GpuLight);
-    const Buffer lightsBefore(context.device, "lights before", bytes);
-    const Buffer lightsNow(context.device, "lights now", bytes);
+    const Buffer lightsBefore(context.device, "lights before", now.size() * sizeof(gpu::GpuLight));
     const Buffer changedLights(context.device, "changed lights", changed.size() * sizeof(uint32_t));
     context.stream.upload(lightsBefore, before);
-    context.stream.upload(lightsNow, now);
     context.stream.upload(changedLights, changed);
+    const SceneState& scene = *context.frame.scene;
+    const auto traced = shadowRaySources(update.batch.sources, scene);
+    const bool sharesRays =
+        std::ranges::any_of(traced, [](const LightSource& source) { return source.kind == LightSource::Tree; });
     context.dispatch(agePoints_, points,
-                     {{"lightsBefore", lightsBefore},
-                      {"lightsNow", lightsNow},
+                     {context.scene,
+                      {"lightsBefore", lightsBefore},
                       {"changedLights", changedLights},
                       {"pointPlaces", pointPlaces_},
+                      {"hiddenLights", hiddenLights_},
                       {"pointDirect", pointDirect_},
                       {"points", points},
-                      {"lights", uint32_t(now.size())},
+                      {"words", hiddenWords()},
                       {"changed", uint32_t(changed.size())},
-                      {"hasOtherLight", hasOtherLight(shadowRaySources(update.batch.sources, *context.frame.scene),
-                                                      *context.frame.scene)}});
+                      {"isSure", !sharesRays && !dimsLight(scene)}});
     context.stream.finish();
 }
 
@@ -132,6 +148,8 @@ void KeptFaces::addFaces(const Update& update, const std::vector<FaceHits>& hits
          oldPoints * sizeof(glm::vec4));
     grow(links_, context, "links of points", points * sizeof(gpu::FaceLink), oldPoints * sizeof(gpu::FaceLink));
     grow(measuredAt_, context, "frames of points", points * sizeof(uint32_t), oldPoints * sizeof(uint32_t));
+    grow(hiddenLights_, context, "lights hidden from points", points * hiddenWords() * sizeof(uint32_t),
+         oldPoints * hiddenWords() * sizeof(uint32_t));
     grow(importance_, context, "importance of faces", faces_ * sizeof(uint32_t), firstNew * sizeof(uint32_t));
     grow(update.light.irradiance, context, "irradiance of lit faces", faces_ * sizeof(glm::vec4),
          firstNew * sizeof(glm::vec4));
@@ -177,21 +195,38 @@ void KeptFaces::select(const Update& update) {
     const std::vector<Binding> kept{update.newFaces.takenSlots(), {"pointDirect", pointDirect_},
                                     {"pointHits", pointHits_},    {"measuredAt", measuredAt_},
                                     {"importance", importance_},  {"irradiance", update.light.irradiance}};
-    PointSelection::Candidates candidates{{}, faces_, params_.pointsPerFace, frame_, update.shadowRays};
+    // Without a light that shines, what is known of it takes no ray
+    PointSelection::Candidates candidates{
+        {}, faces_, params_.pointsPerFace, frame_, update.lights.all.rays + 1, std::max(update.lights.again.rays, 1u)};
     for (const Binding& binding : kept) candidates.kept.push_back(ifUsed(binding));
     const glm::uvec2 pixels = update.context.frame.pixels();
     selection_.select(update.context, candidates,
                       uint32_t(std::floor(double(params_.raysPerPixel) * pixels.x * pixels.y)));
 }
 
-void KeptFaces::measure(const Update& update, const SelectedPoints& points, uint32_t first, uint32_t count) {
-    update.batch.measure(update.context, update.sources, count, update.seed);
-    update.context.dispatch(storeOld_, count,
-                            {{"selected", points.points},
-                             {"direct", update.batch.direct},
-                             {"pointDirect", pointDirect_},
-                             {"first", first},
-                             {"count", count}});
+void KeptFaces::measure(const Update& update, const MeasuredLights& lights, const SelectedPoints& points,
+                        uint32_t first, uint32_t count) {
+    PassContext& context = update.context;
+    const auto store = [&](const Kernel& kernel, std::vector<Binding> more) {
+        context.dispatch(kernel, count,
+                         {context.scene,
+                          {"selected", points.points},
+                          {"direct", update.batch.direct},
+                          {"pointDirect", pointDirect_},
+                          {"hiddenLights", hiddenLights_},
+                          ifUsed({"pointPlaces", pointPlaces_}),
+                          {"first", first},
+                          {"count", count},
+                          {"words", hiddenWords()},
+                          {"keepsLight", lights.keepsLight},
+                          more});
+    };
+    update.batch.measure(context, lights.others, count, update.seed);
+    store(storeOthers_, {});
+    for (const LightSource& source : lights.own) {
+        update.batch.measure(context, {source}, count, update.seed);
+        store(storeOwn_, {{"light", source.light}});
+    }
 }
 
 void KeptFaces::measureAgain(const Update& update) {
@@ -207,7 +242,7 @@ void KeptFaces::measureAgain(const Update& update) {
                           {"surfels", update.batch.surfels},
                           {"first", first},
                           {"count", count}});
-        measure(update, points, first, count);
+        measure(update, update.lights.again, points, first, count);
     }
 }
 
@@ -233,7 +268,7 @@ void KeptFaces::lightNew(const Update& update) {
                           {"first", first},
                           {"count", count},
                           {"seed", update.seed + 0x51u}});
-        measure(update, points, first, count);
+        measure(update, update.lights.all, points, first, count);
         context.tracer.closestHit(context.stream, update.batch.rays, update.batch.hits, count);
         context.dispatch(linkPoints_, count,
                          {context.scene,
@@ -251,13 +286,12 @@ void KeptFaces::lightNew(const Update& update) {
                           {"firstPoint", 0u}});
     }
     addFaces(update, {{&roundHits_, &roundFaces_, 0, points.count}}, false);
-    context.dispatch(storeNew_, points.count,
+    context.dispatch(storeLinks_, points.count,
                      {update.light,
                       {"selected", points.points},
                       {"newLinks", newLinks_},
                       {"links", links_},
                       {"measuredAt", measuredAt_},
-                      {"first", 0u},
                       {"count", points.count},
                       {"frame", frame_}});
 }

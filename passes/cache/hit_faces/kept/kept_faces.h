@@ -25,9 +25,9 @@ class KeptFaces {
     struct Store {
         std::vector<Binding> ofHits, ofFaces;
     };
-    /// Memory, without what buffers have beyond that to grow: of a point its hit, place, light and link, and what
-    /// selects it; of a face its importance and irradiance.
-    static constexpr double kBytesPerPoint = 116, kBytesPerFace = 56;
+    /// Memory, without what buffers have beyond that to grow: of a point its hit, place, light and link, which of 32
+    /// lights are hidden, and what selects it; of a face its importance and irradiance.
+    static constexpr double kBytesPerPoint = 120, kBytesPerFace = 56;
     KeptFaces(ProgramOwner& owner, const Params& params);
 
     /// A frame's update. @param hits of gather rays, by batch; their faces are marked where they have no number.
@@ -39,6 +39,17 @@ class KeptFaces {
     uint32_t faces() const { return faces_; }
 
  private:
+    /// Lights that points measure: those with a shadow ray of their own, of which a point knows whether it sees them,
+    /// and the others.
+    struct MeasuredLights {
+        std::vector<LightSource> own, others;
+        bool keepsLight = false;  ///< Of all lights that are not measured.
+        uint32_t rays = 0;        ///< Of a point.
+    };
+    struct LightsOfPoints {
+        MeasuredLights all;    ///< That shine.
+        MeasuredLights again;  ///< Whose shadows may have moved.
+    };
     /// What an update works with.
     struct Update {
         PassContext& context;
@@ -48,8 +59,7 @@ class KeptFaces {
         const PointBatch& batch;
         const Buffer& lost;
         uint32_t seed;
-        std::vector<LightSource> sources;  ///< That shine.
-        uint32_t shadowRays;               ///< Of a point.
+        LightsOfPoints lights;
     };
     /// Predicts the direct light of points by the lights that have changed, and how far off that may be.
     void ageByLights(const Update& update);
@@ -58,20 +68,28 @@ class KeptFaces {
     void countImportance(const Update& update, const std::vector<FaceHits>& hits);
     /// Selects points within the budget.
     void select(const Update& update);
-    /// Measures direct light at the batch's surfels, of `count` points from the `first` on.
-    void measure(const Update& update, const SelectedPoints& points, uint32_t first, uint32_t count);
+    /// What a point's light is measured by in this frame.
+    LightsOfPoints lightsOfPoints(const PointBatch& batch, const SceneState& scene) const;
+    /// Measures direct light of these at the batch's surfels, of `count` points from the `first` on.
+    void measure(const Update& update, const MeasuredLights& lights, const SelectedPoints& points, uint32_t first,
+                 uint32_t count);
     void measureAgain(const Update& update);
     void lightNew(const Update& update);
     void passLight(const Update& update);
 
+    /// Of a point in hiddenLights_.
+    uint32_t hiddenWords() const;
+
     const Params params_;
     Kernel clearPoints_, offerPoints_, countReads_, passImportance_, agePoints_;
-    Kernel placeOld_, placeNew_, storeOld_, storeNew_, linkPoints_, gatherDirect_, gatherLinks_;
+    Kernel placeOld_, placeNew_, storeOthers_, storeOwn_, storeLinks_, linkPoints_, gatherDirect_, gatherLinks_;
     PointSelection selection_;
     uint32_t faces_ = 0;  ///< That have a number.
     uint32_t frame_ = 0;
     std::vector<gpu::GpuLight> lights_;                                  ///< Of the frame before.
+    std::vector<bool> hasChanged_;                                       ///< By light: since clear().
     Buffer pointHits_, pointPlaces_, pointDirect_, links_, measuredAt_;  ///< By point: `pointsPerFace` of each face.
+    Buffer hiddenLights_;                                                ///< By point: a bit for each light.
     Buffer importance_, importanceBefore_;                               ///< By face.
     Buffer faceDirect_, faceIrradiance_;        ///< By face; the second after every other bounce.
     Buffer newLinks_, roundHits_, roundFaces_;  ///< Of new points.

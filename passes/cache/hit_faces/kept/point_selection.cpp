@@ -30,7 +30,8 @@ std::vector<uint32_t> PointSelection::prioritize(PassContext& context, const Can
                       {"faces", candidates.faces},
                       {"pointsPerFace", candidates.pointsPerFace},
                       {"frame", candidates.frame},
-                      {"shadowRays", candidates.shadowRays}});
+                      {"raysOfNew", candidates.raysOfNew},
+                      {"raysAgain", candidates.raysAgain}});
     return context.stream.readAs<uint32_t>(raysOfBins_, PRIORITY_BINS);
 }
 
@@ -47,8 +48,11 @@ void PointSelection::select(PassContext& context, const Candidates& candidates, 
     grow(blockSums_, context, "prefix sum blocks", PrefixSum::scratchBytes(points), 0);
     grow(oldFlags_, context, "points measured again", words * sizeof(uint32_t), 0);
     grow(newFlags_, context, "new points", words * sizeof(uint32_t), 0);
-    const std::vector<Binding> costs{
-        {"bins", bins_}, {"points", points}, {"threshold", threshold}, {"shadowRays", candidates.shadowRays}};
+    const std::vector<Binding> costs{{"bins", bins_},
+                                     {"points", points},
+                                     {"threshold", threshold},
+                                     {"raysOfNew", candidates.raysOfNew},
+                                     {"raysAgain", candidates.raysAgain}};
     context.dispatch(costs_, points, {candidates.kept, costs, {"rays", costsBefore_}});
     prefixSum_.record(context.stream, costsBefore_, costsBefore_, blockSums_, points);
     for (const Buffer* flags : {&oldFlags_, &newFlags_}) context.stream.fill(*flags, 0);

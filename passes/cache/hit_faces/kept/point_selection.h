@@ -25,7 +25,7 @@ class PointSelection {
         std::vector<Binding> kept;  ///< Of the faces and their points, each ifUsed().
         uint32_t faces, pointsPerFace;
         uint32_t frame;
-        uint32_t shadowRays;  ///< Of a point.
+        uint32_t raysOfNew, raysAgain;  ///< Of a point that is lit for the first time or exchanged, and of others.
     };
     /// @param budget rays. Waits for the device.
     void select(PassContext& context, const Candidates& candidates, uint32_t budget);

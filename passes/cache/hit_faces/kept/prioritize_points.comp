@@ -21,7 +21,8 @@ layout(push_constant) uniform Push {
     uint faces;
     uint pointsPerFace;
     uint frame;
-    uint shadowRays;  // Of a point.
+    uint raysOfNew;  // Of a point.
+    uint raysAgain;
 } push;
 
 // By how much a new point lowers a face's mean square error. Its spread is taken to be that of all faces.
@@ -63,12 +64,12 @@ void main() {
         bins.data[p] = 0u;
         if (reads == 0.0 || pointHits.data[p].face == NO_FACE) continue;
         const float change = pointDirect.data[p].w;
-        uint bin, rays = push.shadowRays + 1u;
+        uint bin, rays = push.raysOfNew;
         if (change < 0.0) {
             bin = binOf(weight * gainOfNew(d) / float(rays), d.lit == 0u && reads >= 1.0 ? CLASS_UNLIT : CLASS_ERROR);
             d = withNew(d);
         } else if (change > 0.0) {
-            rays = push.shadowRays;
+            rays = push.raysAgain;
             const DirectOfFace after = measuredAgain(d, change);
             bin = binOf(weight * (meanSquareError(d) - meanSquareError(after)) / float(rays), CLASS_ERROR);
             d = after;

@@ -10,7 +10,8 @@ layout(push_constant) uniform Push {
     uint points;
     uint threshold;
     uint rest;  // Of the budget, rays.
-    uint shadowRays;
+    uint raysOfNew;
+    uint raysAgain;
 } push;
 
 void main() {
@@ -18,7 +19,7 @@ void main() {
     if (point >= push.points) return;
     const uint bin = bins.data[point];
     if (bin == 0u || bin < push.threshold) return;
-    if (bin == push.threshold && raysBefore.data[point] + updateRays(point, push.shadowRays) > push.rest) return;
+    if (bin == push.threshold && raysBefore.data[point] + updateRays(point, push.raysOfNew, push.raysAgain) > push.rest) return;
     const uint word = point >> 5, bit = 1u << (point & 31u);
     if (measuresAgain(point))
         atomicOr(oldPoints.words[word], bit);

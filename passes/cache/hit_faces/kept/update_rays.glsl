@@ -8,6 +8,6 @@ layout(scalar) readonly buffer PointDirect { vec4 data[]; } pointDirect;
 // Only light is measured again where lights changed; other points are new, and have a link, too.
 bool measuresAgain(uint point) { return pointDirect.data[point].w > 0.0; }
 
-uint updateRays(uint point, uint shadowRays) { return measuresAgain(point) ? shadowRays : shadowRays + 1u; }
+uint updateRays(uint point, uint raysOfNew, uint raysAgain) { return measuresAgain(point) ? raysAgain : raysOfNew; }
 
 #endif
