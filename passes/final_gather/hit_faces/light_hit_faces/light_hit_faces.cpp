@@ -14,8 +14,8 @@
 namespace voxray {
 namespace {
 
-/// Factor of the probability that a link to a face without light is kept, from the second round on: what such faces add
-/// is a small part of the light, and each round takes time whatever its size.
+/// Factor of the probability that a link to a face without light is kept, from round to round: what such faces add is
+/// an ever smaller part of the light, and each round takes time whatever its size.
 constexpr float kSurvival = 0.5f;
 
 }  // namespace
@@ -70,6 +70,7 @@ class LightHitFaces final : public Pass {
     struct Round {
         uint32_t firstFace = 0, faces = 0, firstPoint = 0, points = 0, slotsPerFace = 1;
         bool hasLinks = false;
+        float survival = 1;  ///< Of links to faces without light, times their albedo.
     };
     /// Marks the faces that gather rays hit. @return the hits.
     std::vector<FaceHits> markGatherHits(PassContext& context);
@@ -140,12 +141,14 @@ void LightHitFaces::lightAll(PassContext& context, std::vector<FaceHits> hits) {
 
     // Each round lights the faces that no round before it has hit
     uint32_t faces = 0, points = 0, linked = 0;
-    for (uint32_t bounce = 0; bounce <= params_.bounces; ++bounce) {
+    float survival = 1;
+    for (uint32_t bounce = 0; bounce <= params_.bounces; ++bounce, survival *= kSurvival) {
         Round round{.firstFace = faces, .firstPoint = points};
         round.faces = newFaces_.number(context, light, faces, hits.back().first + hits.back().count);
         if (round.faces == 0) break;
         round.slotsPerFace = bounce == 0 ? params_.pointsPerFace : 1;
         round.hasLinks = bounce < params_.bounces;
+        round.survival = survival;
         const uint32_t roundSeed = seed + bounce * 0x9e3779b9u;
         round.points = newFaces_.choose(context, light, hits, faces, round.faces, round.slotsPerFace, roundSeed);
         faces += round.faces;
@@ -209,7 +212,7 @@ void LightHitFaces::lightPoints(PassContext& context, const Round& round, uint32
                           {"count", count},
                           {"firstPoint", round.firstPoint},
                           {"seed", seed + 0xa3u},
-                          {"survival", round.firstPoint == 0 ? 1.0f : kSurvival}});
+                          {"survival", round.survival}});
     }
 }
 
