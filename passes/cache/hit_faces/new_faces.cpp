@@ -27,8 +27,8 @@ uint32_t NewFaces::number(PassContext& context, const HitFaceLight& light, uint3
     growTo(newFaces_, context.device, "new faces", std::min<uint64_t>(rays, 32 * words) * sizeof(uint32_t));
     const uint32_t faces = compaction_.run(context.stream, marked_, newFaces_, uint32_t(words));
     if (cellSort_) sortCells(context, faces);
-    context.dispatch(numberFaces_, faces, {light, {"newFaces", newFaces_}, {"count", faces}, {"firstFace", firstFace}});
-    context.stream.fill(marked_, 0);
+    context.dispatch(numberFaces_, faces,
+                     {light, marks(), {"newFaces", newFaces_}, {"count", faces}, {"firstFace", firstFace}});
     return faces;
 }
 

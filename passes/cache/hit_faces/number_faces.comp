@@ -1,5 +1,5 @@
-// Numbers newly marked faces, in the order of their indices.
-#include "passes/cache/hit_faces/hit_face.glsl"
+// Numbers newly marked faces, in the order of their indices, and unmarks them.
+#include "passes/cache/hit_faces/mark_face.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
@@ -11,5 +11,8 @@ layout(push_constant) uniform Push {
 
 void main() {
     const uint i = linearIndex();
-    if (i < push.count) faceNumbers.data[newFaces.data[i]] = push.firstFace + i;
+    if (i >= push.count) return;
+    const uint face = newFaces.data[i];
+    faceNumbers.data[face] = push.firstFace + i;
+    markedFaces.words[face >> 5] = 0u;  // All faces of a word are numbered at once.
 }

@@ -7,7 +7,7 @@ namespace {
 
 /// As in shade_hit.glsl.
 struct HitCounts {
-    uint32_t surfels, unlit;
+    uint32_t surfels, continued, unlit;
 };
 
 }  // namespace
@@ -66,11 +66,11 @@ ContinuedPaths::Counts ContinuedPaths::trace(PassContext& context, const std::ve
                           {"rays", rays_},
                           {"count", hits.surfels},
                           {"seed", seed + 0xa3u}});
-        if (params_.nearFieldCells == 0 || step == maxSteps()) break;
+        if (hits.continued == 0) break;
 
         // Trace these rays and shade their hits
         context.tracer.closestHit(stream, rays_, hits_, hits.surfels);
-        total.rays += hits.surfels;
+        total.rays += hits.continued;
         stream.fill(counts_, 0);
         const bool isLast = step + 1 == maxSteps();
         context.dispatch(continue_, hits.surfels,

@@ -13,6 +13,7 @@ layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
 layout(scalar) writeonly buffer Continuations { uvec2 data[]; } continuations;
 buffer Counts {
     uint surfels;
+    uint continued;  // Of them, those whose paths continue.
     uint unlit;  // Hits beyond the near field where no light is stored.
 } counts;
 
@@ -21,6 +22,7 @@ buffer Counts {
 // Lists a hit where shadow rays measure direct light, or where a mirror reflects.
 void listHit(Surfel surfel, vec3 faceNormal, bool isContinued) {
     const uint index = atomicAdd(counts.surfels, 1u);
+    if (isContinued) atomicAdd(counts.continued, 1u);
     surfels.data[index] = surfel;
     continuations.data[index] = uvec2(isContinued ? 1u : 0u, toOctahedral(faceNormal));
 }
