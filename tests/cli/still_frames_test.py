@@ -36,11 +36,11 @@ measure: {frames: 2, warmup: 1, build_repeats: 0}
 METHODS = {"lookup", "cones dense", "cones octree", "surfels", "virtual lights", "accumulated", "gather rays", "mirrors", "paths"}
 
 # Bytes that a pass moves, and how often its host waits, in a frame that is like the one before it. How many rays go on, or start at
-# mirrors, only the device knows: the host reads their number in order to launch as many. That is 8 bytes of gather rays, of the first
+# mirrors, only the device knows: the host reads their number in order to launch as many. That is 12 bytes of gather rays, of the first
 # hits and of those of up to three steps, and of mirrors 4 bytes of the rays and 24 of each bounce. Paths need no count to go on: the rays
 # of the frame are read when it is done, and then all memory is freed that is there while they are traced: 2 waits. (A variant's last pass
 # has the id of the list that it stands in.)
-COUNTS_READ = {("gather rays", "gather_rays"): (32, 4), ("mirrors", "indirect"): (28, 2), ("paths", "path_trace_device"): (8, 2)}
+COUNTS_READ = {("gather rays", "gather_rays"): (48, 4), ("mirrors", "indirect"): (28, 2), ("paths", "path_trace_device"): (8, 2)}
 
 
 class StillFrames(CommandTest):

@@ -20,9 +20,11 @@ layout(push_constant, scalar) uniform Push {
 
 // Seed of a triangle's points, from where it is and not from its number: coincident copies of a triangle have the same
 // points, of whose rays each hits one copy. Points of their own would count both copies in some places and none in others.
+// In parts of a voxel, so that a scene has the same points at any scale.
 uint pointSeed(uint triangle) {
-    const uvec3 bits = floatBitsToUint(surfacePoint(triangle, vec2(1.0 / 3.0)).position);
-    return hashCombine(hashCombine(hashCombine(push.seed, bits.x), bits.y), bits.z);
+    const vec3 center = surfacePoint(triangle, vec2(1.0 / 3.0)).position;
+    const uvec3 place = uvec3(ivec3(round(256.0 / push.grid.voxelSize * center)));
+    return hashCombine(hashCombine(hashCombine(push.seed, place.x), place.y), place.z);
 }
 
 void main() {
