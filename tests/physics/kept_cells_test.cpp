@@ -61,12 +61,16 @@ TEST(KeptCells, TraceNoMoreThanTheBudget) {
 }
 
 TEST(KeptCells, KeepTheEnergyOfAFurnace) {
-    // As without a budget: three bounces in the cells, of which pixels show the next
+    // As without a budget: three bounces in the cells, of which pixels show the next. Seeds differ by 0.3 %
+    constexpr uint64_t kSeeds = 3;
     for (const std::string budget : {"0.5", "16"}) {
-        Chain chain("furnace", "{shape: sphere, albedo: 0.6, emission: 1}",
-                    keptGraph(budget, ", bounces: 2, light_samples: 4", "16", "0.0625"));
-        chain.runFrames(40);
-        const double ratio = mean(meanImage(chain, 41, 8)) / (0.36 + 0.216 + 0.1296);
+        double ratio = 0;
+        for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
+            Chain chain("furnace", "{shape: sphere, albedo: 0.6, emission: 1}",
+                        keptGraph(budget, ", bounces: 2, light_samples: 4", "16", "0.0625"), 32, 32, seed);
+            chain.runFrames(40);
+            ratio += mean(meanImage(chain, 41, 8)) / (0.36 + 0.216 + 0.1296) / kSeeds;
+        }
         std::printf("%s rays a pixel: %.4f of the closed form\n", budget.c_str(), ratio);
         EXPECT_NEAR(ratio, 1, 0.01);
     }
