@@ -33,6 +33,7 @@ ERRORS = ("indirect_nrmse", "indirect_relmse")
 # Of each column: its title, the id of a pass that its methods have, whether a build pass counts, and what does not count.
 COLUMNS = (("looked up", "inject_radiosity", lambda name: False, LEFT_OUT),
            ("looked up, new light", "inject_radiosity", lambda name: name in LIGHT, LEFT_OUT),
+           ("surfels, gathered", "surfel_rays", lambda name: False, LEFT_OUT),
            ("voxels", "gather_rays", lambda name: False, LEFT_OUT),
            ("voxels, rays alone", "gather_rays", lambda name: False, LEFT_OUT | SHARED),
            ("cones", "filter_voxels", lambda name: False, LEFT_OUT),
