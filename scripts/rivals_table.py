@@ -2,11 +2,12 @@
 """Prints how much faster lookups, gather rays or virtual lights are than filtered path tracing at equal error, from results of
 configs/bench/rivals_still_light.yaml, rivals_new_light.yaml or configs/papers/sun2015/rivals.yaml.
 
-rivals_table.py DIR [--best]: for each scene and number of samples a pixel, the frame time of path tracing (G-buffer, paths, filter)
-and its errors of indirect light; then that time over the time in which voxels that are looked up, gather rays into voxels,
-or gather rays into a radiance cache reach as small an nRMSE / relMSE: with light and geometry that stand still (frames
-alone), with light that is new in each frame (what brings light counts, too), and with geometry that is new, too (all that
-is built counts). Faces that gather rays hit are lit in each frame.
+rivals_table.py DIR... [--best]: for each scene and number of samples a pixel, the frame time of path tracing (G-buffer,
+paths, filter) and its errors of indirect light; then that time over the time in which voxels that are looked up, gather rays
+into voxels, or gather rays into a radiance cache reach as small an nRMSE / relMSE: with light and geometry that stand still
+(frames alone), with light that is new in each frame (what brings light counts, too), and with geometry that is new, too (all
+that is built counts). Faces that gather rays hit are lit in each frame. Of many runs of a config, whose results are the same,
+the least time of each pass counts, since a machine's speed drifts while a run lasts.
 "rays alone" takes the G-buffer and the filter, which both sides share, off both sides: what the column before would come to
 if these cost nothing. For virtual lights what samples and selects them counts. Of a method's
 variants those count that no other one beats in time and error; between them the time is interpolated, logarithm over
@@ -50,13 +51,18 @@ COLUMNS = (("looked up", "inject_radiosity", lambda name: False, LEFT_OUT),
            ("virtual lights", "gather_vpls", lambda name: name in LIGHT, LEFT_OUT))
 
 
-def variants(folder):
-    """By scene: (passes, result row) of each variant."""
+def variants(*folders):
+    """By scene: (passes, result row) of each variant of the first run, with the least time of all runs for each pass."""
+    times = {}
+    for folder in folders:
+        for row in read_rows(folder, "passes.csv"):
+            times.setdefault((row["variant"], row["pass"], row["phase"]), []).append(float(row["ms_median"]))
     passes = {}
-    for row in read_rows(folder, "passes.csv"):
-        passes.setdefault(row["variant"], []).append(row)
+    for row in read_rows(folders[0], "passes.csv"):
+        least = min(times[row["variant"], row["pass"], row["phase"]])
+        passes.setdefault(row["variant"], []).append({**row, "ms_median": least})
     scenes = {}
-    for row in read_rows(folder, "results.csv"):
+    for row in read_rows(folders[0], "results.csv"):
         if row["status"] == "ok":
             scenes.setdefault(row["scene"], []).append((passes[row["variant"]], row))
     return scenes
@@ -104,11 +110,11 @@ def is_no_slower(ms, error, rivals):
     return reached is None or ms <= reached[0]
 
 
-def best(folder):
+def best(*folders):
     """Of each scene and method the variant of the least nRMSE among those that are no slower than filtered path tracing
     at the same nRMSE."""
     rows = []
-    for scene, found in variants(folder).items():
+    for scene, found in variants(*folders).items():
         rivals = front([(frame_time(passes), float(row["indirect_nrmse"]))
                         for passes, row in found if samples_of(passes, row)])
         for title, gather in (("looked up", "inject_radiosity"), ("voxels", "gather_rays"), ("cache", "cached_rays")):
@@ -124,8 +130,8 @@ def best(folder):
     return markdown_table(["scene", "method", "variant", "ms", "nRMSE / relMSE / mean ratio"], rows)
 
 
-def table(folder):
-    scenes = variants(folder)
+def table(*folders):
+    scenes = variants(*folders)
     present = {p["pass"] for found in scenes.values() for passes, _ in found for p in passes}
     columns = [column for column in COLUMNS if column[1] in present]
     rows = []
@@ -150,4 +156,7 @@ def table(folder):
 
 
 if __name__ == "__main__":
-    print("\n".join(best(sys.argv[1]) if "--best" in sys.argv[2:] else table(sys.argv[1])))
+    runs = [argument for argument in sys.argv[1:] if argument != "--best"]
+    if not runs:
+        sys.exit("rivals_table.py DIR... [--best]")
+    print("\n".join((best if "--best" in sys.argv else table)(*runs)))

@@ -46,6 +46,16 @@ class Table(unittest.TestCase):
         self.assertEqual(lines[2], "| room | 4 | 200 | 0.200 / 0.200 | >4.0 / >4.0 | >2.0 / >2.0 |")
         self.assertEqual(lines[3], "| room | 16 | 800 | 0.100 / 0.100 | 8.0 / 8.0 | 4.0 / 4.0 |")
 
+    def test_of_many_runs_the_least_time_of_each_pass_counts(self):
+        with tempfile.TemporaryDirectory() as again:
+            write(again, [("filtered paths, 4", 0.2, {"gbuffer": 20, "paths": 50, "indirect": 100}, {}),
+                          ("filtered paths, 16", 0.1, {"gbuffer": 10, "paths": 890, "indirect": 100}, {}),
+                          ("lookup, coarse", 0.2, {"gbuffer": 10, "gather_surfels": 30}, {"inject_radiosity": 90, "link_surfels": 9}),
+                          ("lookup, fine", 0.05, {"gbuffer": 10, "gather_surfels": 190}, {"inject_radiosity": 200})])
+            lines = list(rivals_table.table(self.folder, again))
+        self.assertEqual(lines[2], "| room | 4 | 160 | 0.200 / 0.200 | >4.0 / >4.0 | >1.8 / >1.8 |")
+        self.assertEqual(lines[3].split("|")[3].strip(), "800")
+
     def test_rays_alone_leave_out_what_both_sides_share(self):
         write(self.folder, [("filtered paths, 4", 0.2, {"gbuffer": 10, "paths": 90, "indirect": 100, "direct": 1000}, {}),
                             ("rays, 1 a pixel", 0.2, {"gbuffer": 10, "gather_rays": 20, "indirect": 100}, {"inject": 1000})])
