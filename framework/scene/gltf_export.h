@@ -2,11 +2,20 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "scene/geometry.h"
 #include "scene/tiny_gltf.h"
 
 namespace voxray {
+
+/// A vector's components, as glTF has them.
+template <typename Vector>
+std::vector<double> numbers(const Vector& v) {
+    std::vector<double> out;
+    for (int i = 0; i < int(Vector::length()); ++i) out.push_back(double(v[i]));
+    return out;
+}
 
 /// Builds a glTF model with all of its data in one buffer.
 class GltfWriter {

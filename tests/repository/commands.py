@@ -5,6 +5,7 @@ commands.py [ROOT]: files and folders in `code` exist, configs of `./voxray run`
 match a benchmark and those of `./voxray test` a test, sub-commands and programs of tests exist. With the built program
 in VOXRAY_PROGRAM also their options, the passes, and `--set` of shipped configs. Exit status 1 where one is not so.
 """
+import functools
 import os
 import re
 import shlex
@@ -79,19 +80,18 @@ def targets(root):
 
 
 class Program:
-    """The built program, asked once for each help page."""
+    """The built program, asked each thing once."""
 
     def __init__(self, path):
-        self.path, self.pages = path, {}
+        self.path = path
 
+    @functools.cache
     def run(self, *arguments):
         return subprocess.run([self.path, *arguments], capture_output=True, text=True)
 
     def help(self, command):
-        if command not in self.pages:
-            done = self.run(command, "--help")
-            self.pages[command] = done.stdout if done.returncode == 0 else None
-        return self.pages[command]
+        done = self.run(command, "--help")
+        return done.stdout if done.returncode == 0 else None
 
 
 def problem_of(root, words, program):

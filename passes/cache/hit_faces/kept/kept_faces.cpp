@@ -2,35 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <iterator>
 #include <utility>
 
 #include "passes/cache/hit_faces/face_point_types.h"
-#include "passes/common/compute/bit_words.h"
 #include "passes/common/compute/random_seed.h"
-#include "scene/panes.h"
 
 namespace voxray {
-namespace {
-
-/// Sources that shine in this frame: of those that the pass knows, without lights that are off.
-std::vector<LightSource> shiningSources(const std::vector<LightSource>& sources, const SceneState& scene) {
-    std::vector<LightSource> shining;
-    for (const LightSource& source : sources)
-        if (source.kind != LightSource::Punctual || scene.lights[source.light].intensity != glm::vec3(0.0f))
-            shining.push_back(source);
-    return shining;
-}
-
-/// As SurfelDirectLight traces them.
-uint32_t shadowRays(const std::vector<LightSource>& sources, uint32_t samples) {
-    uint32_t rays = 0;
-    for (const LightSource& source : sources) rays += source.kind == LightSource::Punctual ? 1 : samples;
-    return rays;
-}
-
-}  // namespace
 
 KeptFaces::KeptFaces(ProgramOwner& owner, const Params& params)
     : params_(params),
@@ -38,7 +15,6 @@ KeptFaces::KeptFaces(ProgramOwner& owner, const Params& params)
       offerPoints_(owner, "offer_points.comp"),
       countReads_(owner, "count_reads.comp"),
       passImportance_(owner, "pass_importance.comp"),
-      agePoints_(owner, "age_points.comp"),
       placeOld_(owner, "place_kept_points.comp", definesOf(params.kind)),
       placeNew_(owner, "place_kept_points.comp", definesOf(params.kind, {{"NEW", "1"}})),
       storeOthers_(owner, "store_light.comp"),
@@ -47,6 +23,7 @@ KeptFaces::KeptFaces(ProgramOwner& owner, const Params& params)
       linkPoints_(owner, "passes/cache/hit_faces/link_points.comp", definesOf(params.kind, {{"KEEP_ALL", "1"}})),
       gatherDirect_(owner, "gather_kept_links.comp", {{"DIRECT", "1"}}),
       gatherLinks_(owner, "gather_kept_links.comp"),
+      lights_(owner),
       selection_(owner) {}
 
 void KeptFaces::clear(PassContext& context, uint64_t allFaces, HitFaceLight& light) {
@@ -54,22 +31,17 @@ void KeptFaces::clear(PassContext& context, uint64_t allFaces, HitFaceLight& lig
                std::max<uint64_t>(allFaces, 1) * sizeof(uint32_t));
     context.stream.fill(light.numbers, NO_FACE);
     ++light.generation;
-    lights_ = context.scene.uploadedLights;
-    hasChanged_.assign(lights_.size(), false);
+    lights_.clear(context);
     faces_ = 0;
-}
-
-uint32_t KeptFaces::hiddenWords() const {
-    return std::max(uint32_t(bitWords(lights_.size())), 1u);
 }
 
 void KeptFaces::update(PassContext& context, const Store& store, HitFaceLight& light, NewFaces& newFaces,
                        const PointBatch& batch, const std::vector<FaceHits>& hits, const Buffer& lost) {
-    const SceneState& scene = *context.frame.scene;
     Update update{context, store, light, newFaces, batch, lost, randomSeed(context.frame, context.frameIndex), {}};
     ++frame_;
-    ageByLights(update);
-    update.lights = lightsOfPoints(batch, scene);
+    lights_.agePoints(context, batch, faces_ * params_.pointsPerFace,
+                      {{"pointPlaces", pointPlaces_}, {"hiddenLights", hiddenLights_}, {"pointDirect", pointDirect_}});
+    update.lights = lights_.toMeasure(batch, *context.frame.scene);
     addFaces(update, hits, true);
     countImportance(update, hits);
     select(update);
@@ -79,60 +51,6 @@ void KeptFaces::update(PassContext& context, const Store& store, HitFaceLight& l
     context.report("kept faces", faces_);
     context.report("points", selection_.again().count + selection_.added().count);
     context.report("points measured again", selection_.again().count);
-}
-
-KeptFaces::LightsOfPoints KeptFaces::lightsOfPoints(const PointBatch& batch, const SceneState& scene) const {
-    LightsOfPoints lights;
-    bool allHaveRays = true;
-    for (const LightSource& source : shadowRaySources(shiningSources(batch.sources, scene), scene)) {
-        const bool isOwn = source.kind == LightSource::Punctual;
-        (isOwn ? lights.all.own : lights.all.others).push_back(source);
-        allHaveRays = allHaveRays && source.kind != LightSource::Tree;
-    }
-    lights.all.rays = shadowRays(lights.all.own, batch.samples) + shadowRays(lights.all.others, batch.samples);
-    // Behind panes, and of lights that are sampled together, it is not known what part of a point's light is whose
-    if (dimsLight(scene) || !allHaveRays) {
-        lights.again = lights.all;
-    } else {
-        std::ranges::copy_if(lights.all.own, std::back_inserter(lights.again.own),
-                             [&](const LightSource& source) { return hasChanged_[source.light]; });
-        lights.again.keepsLight = true;
-        lights.again.rays = uint32_t(lights.again.own.size());
-    }
-    return lights;
-}
-
-void KeptFaces::ageByLights(const Update& update) {
-    PassContext& context = update.context;
-    const std::vector<gpu::GpuLight>& now = context.scene.uploadedLights;
-    if (now.size() != lights_.size()) throw Error("light that is kept: the number of lights has changed");
-    std::vector<uint32_t> changed;
-    for (uint32_t i = 0; i < now.size(); ++i)
-        if (std::memcmp(&now[i], &lights_[i], sizeof(gpu::GpuLight)) != 0) changed.push_back(i);
-    for (const uint32_t light : changed) hasChanged_[light] = true;
-    const std::vector<gpu::GpuLight> before = std::exchange(lights_, now);
-    const uint32_t points = faces_ * params_.pointsPerFace;
-    if (changed.empty() || points == 0) return;
-    const Buffer lightsBefore(context.device, "lights before", now.size() * sizeof(gpu::GpuLight));
-    const Buffer changedLights(context.device, "changed lights", changed.size() * sizeof(uint32_t));
-    context.stream.upload(lightsBefore, before);
-    context.stream.upload(changedLights, changed);
-    const SceneState& scene = *context.frame.scene;
-    const auto traced = shadowRaySources(update.batch.sources, scene);
-    const bool sharesRays =
-        std::ranges::any_of(traced, [](const LightSource& source) { return source.kind == LightSource::Tree; });
-    context.dispatch(agePoints_, points,
-                     {context.scene,
-                      {"lightsBefore", lightsBefore},
-                      {"changedLights", changedLights},
-                      {"pointPlaces", pointPlaces_},
-                      {"hiddenLights", hiddenLights_},
-                      {"pointDirect", pointDirect_},
-                      {"points", points},
-                      {"words", hiddenWords()},
-                      {"changed", uint32_t(changed.size())},
-                      {"isSure", !sharesRays && !dimsLight(scene)}});
-    context.stream.finish();
 }
 
 void KeptFaces::addFaces(const Update& update, const std::vector<FaceHits>& hits, bool offerToAll) {
@@ -148,8 +66,8 @@ void KeptFaces::addFaces(const Update& update, const std::vector<FaceHits>& hits
          oldPoints * sizeof(glm::vec4));
     grow(links_, context, "links of points", points * sizeof(gpu::FaceLink), oldPoints * sizeof(gpu::FaceLink));
     grow(measuredAt_, context, "frames of points", points * sizeof(uint32_t), oldPoints * sizeof(uint32_t));
-    grow(hiddenLights_, context, "lights hidden from points", points * hiddenWords() * sizeof(uint32_t),
-         oldPoints * hiddenWords() * sizeof(uint32_t));
+    grow(hiddenLights_, context, "lights hidden from points", points * lights_.hiddenWords() * sizeof(uint32_t),
+         oldPoints * lights_.hiddenWords() * sizeof(uint32_t));
     grow(importance_, context, "importance of faces", faces_ * sizeof(uint32_t), firstNew * sizeof(uint32_t));
     grow(update.light.irradiance, context, "irradiance of lit faces", faces_ * sizeof(glm::vec4),
          firstNew * sizeof(glm::vec4));
@@ -217,7 +135,7 @@ void KeptFaces::measure(const Update& update, const MeasuredLights& lights, cons
                           ifUsed({"pointPlaces", pointPlaces_}),
                           {"first", first},
                           {"count", count},
-                          {"words", hiddenWords()},
+                          {"words", lights_.hiddenWords()},
                           {"keepsLight", lights.keepsLight},
                           more});
     };

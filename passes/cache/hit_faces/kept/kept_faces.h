@@ -2,10 +2,10 @@
 
 #include <vector>
 
+#include "passes/cache/hit_faces/kept/changing_lights.h"
 #include "passes/cache/hit_faces/kept/point_selection.h"
 #include "passes/cache/hit_faces/new_faces.h"
 #include "passes/cache/hit_faces/point_batch.h"
-#include "shaders/scene/scene_types.h"
 
 namespace voxray {
 
@@ -39,17 +39,6 @@ class KeptFaces {
     uint32_t faces() const { return faces_; }
 
  private:
-    /// Lights that points measure: those with a shadow ray of their own, of which a point knows whether it sees them,
-    /// and the others.
-    struct MeasuredLights {
-        std::vector<LightSource> own, others;
-        bool keepsLight = false;  ///< Of all lights that are not measured.
-        uint32_t rays = 0;        ///< Of a point.
-    };
-    struct LightsOfPoints {
-        MeasuredLights all;    ///< That shine.
-        MeasuredLights again;  ///< Whose shadows may have moved.
-    };
     /// What an update works with.
     struct Update {
         PassContext& context;
@@ -61,15 +50,11 @@ class KeptFaces {
         uint32_t seed;
         LightsOfPoints lights;
     };
-    /// Predicts the direct light of points by the lights that have changed, and how far off that may be.
-    void ageByLights(const Update& update);
     /// Numbers marked faces, which begin without light, and offers hits as points of the faces from `firstFace` on.
     void addFaces(const Update& update, const std::vector<FaceHits>& hits, bool offerToAll);
     void countImportance(const Update& update, const std::vector<FaceHits>& hits);
     /// Selects points within the budget.
     void select(const Update& update);
-    /// What a point's light is measured by in this frame.
-    LightsOfPoints lightsOfPoints(const PointBatch& batch, const SceneState& scene) const;
     /// Measures direct light of these at the batch's surfels, of `count` points from the `first` on.
     void measure(const Update& update, const MeasuredLights& lights, const SelectedPoints& points, uint32_t first,
                  uint32_t count);
@@ -77,17 +62,13 @@ class KeptFaces {
     void lightNew(const Update& update);
     void passLight(const Update& update);
 
-    /// Of a point in hiddenLights_.
-    uint32_t hiddenWords() const;
-
     const Params params_;
-    Kernel clearPoints_, offerPoints_, countReads_, passImportance_, agePoints_;
+    Kernel clearPoints_, offerPoints_, countReads_, passImportance_;
     Kernel placeOld_, placeNew_, storeOthers_, storeOwn_, storeLinks_, linkPoints_, gatherDirect_, gatherLinks_;
+    ChangingLights lights_;
     PointSelection selection_;
     uint32_t faces_ = 0;  ///< That have a number.
     uint32_t frame_ = 0;
-    std::vector<gpu::GpuLight> lights_;                                  ///< Of the frame before.
-    std::vector<bool> hasChanged_;                                       ///< By light: since clear().
     Buffer pointHits_, pointPlaces_, pointDirect_, links_, measuredAt_;  ///< By point: `pointsPerFace` of each face.
     Buffer hiddenLights_;                                                ///< By point: a bit for each light.
     Buffer importance_, importanceBefore_;                               ///< By face.
