@@ -11,7 +11,7 @@
 
 namespace voxray {
 
-/// Ray queries of one thread: closest hit and occlusion, of single rays or packets of eight (active: -1).
+/// Ray queries of one thread: closest hit and occlusion, of single rays or packets of sixteen (active: -1).
 class EmbreeQuery {
  public:
     explicit EmbreeQuery(Coherence coherence);
@@ -19,9 +19,9 @@ class EmbreeQuery {
     EmbreeQuery& operator=(const EmbreeQuery&) = delete;
 
     void intersect(RTCScene scene, RTCRayHit& ray);
-    void intersect(const int* active, RTCScene scene, RTCRayHit8& rays);
+    void intersect(const int* active, RTCScene scene, RTCRayHit16& rays);
     void occluded(RTCScene scene, RTCRay& ray);
-    void occluded(const int* active, RTCScene scene, RTCRay8& rays);
+    void occluded(const int* active, RTCScene scene, RTCRay16& rays);
 
  private:
 #if RTC_VERSION_MAJOR >= 4
@@ -47,16 +47,16 @@ inline void EmbreeQuery::intersect(RTCScene scene, RTCRayHit& ray) {
     rtcIntersect1(scene, &ray, &intersect_);
 }
 
-inline void EmbreeQuery::intersect(const int* active, RTCScene scene, RTCRayHit8& rays) {
-    rtcIntersect8(active, scene, &rays, &intersect_);
+inline void EmbreeQuery::intersect(const int* active, RTCScene scene, RTCRayHit16& rays) {
+    rtcIntersect16(active, scene, &rays, &intersect_);
 }
 
 inline void EmbreeQuery::occluded(RTCScene scene, RTCRay& ray) {
     rtcOccluded1(scene, &ray, &occluded_);
 }
 
-inline void EmbreeQuery::occluded(const int* active, RTCScene scene, RTCRay8& rays) {
-    rtcOccluded8(active, scene, &rays, &occluded_);
+inline void EmbreeQuery::occluded(const int* active, RTCScene scene, RTCRay16& rays) {
+    rtcOccluded16(active, scene, &rays, &occluded_);
 }
 
 #else
@@ -70,16 +70,16 @@ inline void EmbreeQuery::intersect(RTCScene scene, RTCRayHit& ray) {
     rtcIntersect1(scene, &context_, &ray);
 }
 
-inline void EmbreeQuery::intersect(const int* active, RTCScene scene, RTCRayHit8& rays) {
-    rtcIntersect8(active, scene, &context_, &rays);
+inline void EmbreeQuery::intersect(const int* active, RTCScene scene, RTCRayHit16& rays) {
+    rtcIntersect16(active, scene, &context_, &rays);
 }
 
 inline void EmbreeQuery::occluded(RTCScene scene, RTCRay& ray) {
     rtcOccluded1(scene, &context_, &ray);
 }
 
-inline void EmbreeQuery::occluded(const int* active, RTCScene scene, RTCRay8& rays) {
-    rtcOccluded8(active, scene, &context_, &rays);
+inline void EmbreeQuery::occluded(const int* active, RTCScene scene, RTCRay16& rays) {
+    rtcOccluded16(active, scene, &context_, &rays);
 }
 
 #endif

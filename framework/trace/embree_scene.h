@@ -32,7 +32,7 @@ class EmbreeScene {
 
     /// Up to kPacketRays coherent rays, with the results of single rays but faster. Inactive rays (tMax <
     /// tMin) hit nothing.
-    static constexpr size_t kPacketRays = 8;
+    static constexpr size_t kPacketRays = 16;
     void closestHitPacket(std::span<const Ray> rays, std::span<Hit> hits) const;
     void occludedPacket(std::span<const Ray> rays, std::span<uint32_t> results) const;
 

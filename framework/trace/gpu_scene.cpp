@@ -28,12 +28,12 @@ static_assert(uint32_t(Wrap::Repeat) == WRAP_REPEAT && uint32_t(Wrap::ClampToEdg
 static_assert(uint32_t(TexelFilter::Linear) == FILTER_LINEAR && uint32_t(TexelFilter::Nearest) == FILTER_NEAREST);
 
 gpu::GpuTextureRef toGpu(const Scene& scene, const TextureRef& ref) {
-    if (ref.texture < 0) return {NO_TEXTURE, ref.texCoord, ref.transform[0], ref.transform[1], 0, 0, 0};
+    if (ref.texture < 0) return {NO_TEXTURE, ref.texCoord, ref.transform[0], ref.transform[1], 0, 0, 0, {}};
     const Texture& texture = scene.textures[size_t(ref.texture)];
-    return {uint32_t(ref.texture),   ref.texCoord,
-            ref.transform[0],        ref.transform[1],
-            uint32_t(texture.wrapU), uint32_t(texture.wrapV),
-            uint32_t(texture.filter)};
+    return {uint32_t(ref.texture),    ref.texCoord,
+            ref.transform[0],         ref.transform[1],
+            uint32_t(texture.wrapU),  uint32_t(texture.wrapV),
+            uint32_t(texture.filter), {texture.width, texture.height}};
 }
 
 gpu::GpuMaterial toGpu(const Scene& scene, const Material& m) {

@@ -19,11 +19,13 @@ const uint8_t* codeOf(const Texture& texture, int32_t x, int32_t y) {
     return &texture.rgba[(size_t(y) * texture.width + size_t(x)) * 4];
 }
 
+constexpr float kCodeScale = 1.0f / 255.0f;
+
 glm::vec4 texel(const Texture& texture, int32_t x, int32_t y) {
     const uint8_t* code = codeOf(texture, x, y);
-    constexpr float kScale = 1.0f / 255.0f;
-    if (texture.srgb) return {kSrgbToLinear[code[0]], kSrgbToLinear[code[1]], kSrgbToLinear[code[2]], code[3] * kScale};
-    return glm::vec4(code[0], code[1], code[2], code[3]) * kScale;
+    if (texture.srgb)
+        return {kSrgbToLinear[code[0]], kSrgbToLinear[code[1]], kSrgbToLinear[code[2]], code[3] * kCodeScale};
+    return glm::vec4(code[0], code[1], code[2], code[3]) * kCodeScale;
 }
 
 /// Wraps a coordinate to a range in which `floor(x * size)` fits an integer, without loss of precision.
@@ -80,13 +82,27 @@ Texels filteredTexels(float coordinate, int32_t size, Wrap wrap, TexelFilter fil
 
 }  // namespace
 
-glm::vec4 sampleTexture(const Texture& texture, glm::vec2 uv) {
+namespace {
+
+/// Filters what `texelAt` finds in a texture, a function of the texture and of a texel's coordinates.
+template <typename TexelAt>
+auto filtered(const Texture& texture, glm::vec2 uv, const TexelAt& texelAt) {
     const Texels x = filteredTexels(uv.x, int32_t(texture.width), texture.wrapU, texture.filter);
     const Texels y = filteredTexels(uv.y, int32_t(texture.height), texture.wrapV, texture.filter);
     const auto row = [&](int32_t rowY) {
-        return texel(texture, x.first, rowY) * (1.0f - x.weight) + texel(texture, x.second, rowY) * x.weight;
+        return texelAt(texture, x.first, rowY) * (1.0f - x.weight) + texelAt(texture, x.second, rowY) * x.weight;
     };
     return row(y.first) * (1.0f - y.weight) + row(y.second) * y.weight;
+}
+
+float texelAlpha(const Texture& texture, int32_t x, int32_t y) {
+    return codeOf(texture, x, y)[3] * kCodeScale;
+}
+
+}  // namespace
+
+glm::vec4 sampleTexture(const Texture& texture, glm::vec2 uv) {
+    return filtered(texture, uv, texel);
 }
 
 void prefetchTexels(const Texture& texture, glm::vec2 uv) {
@@ -97,12 +113,19 @@ void prefetchTexels(const Texture& texture, glm::vec2 uv) {
     __builtin_prefetch(codeOf(texture, x, y.second));
 }
 
-glm::vec4 sampleTexture(const SceneState& state, const TextureRef& ref, uint32_t triangle, float u, float v) {
+namespace {
+
+glm::vec2 textureCoordinates(const SceneState& state, const TextureRef& ref, uint32_t triangle, float u, float v) {
     const Geometry& g = state.geometry;
     const glm::uvec3 corners = g.triangles[triangle];
-    const glm::vec4 texCoords = interpolate(g.attributes[corners.x].texCoords, g.attributes[corners.y].texCoords,
-                                            g.attributes[corners.z].texCoords, u, v);
-    return sampleTexture(state.scene->textures[size_t(ref.texture)], textureCoordinates(ref, texCoords));
+    return textureCoordinates(ref, interpolate(g.attributes[corners.x].texCoords, g.attributes[corners.y].texCoords,
+                                               g.attributes[corners.z].texCoords, u, v));
+}
+
+}  // namespace
+
+glm::vec4 sampleTexture(const SceneState& state, const TextureRef& ref, uint32_t triangle, float u, float v) {
+    return sampleTexture(state.scene->textures[size_t(ref.texture)], textureCoordinates(state, ref, triangle, u, v));
 }
 
 float alphaThreshold(const Material& material) {
@@ -116,8 +139,9 @@ bool isCutAway(const SceneState& state, uint32_t triangle, float u, float v) {
     float alpha = material.baseColor.a * interpolate(geometry.attributes[corners.x].color.a,
                                                      geometry.attributes[corners.y].color.a,
                                                      geometry.attributes[corners.z].color.a, u, v);
-    if (material.baseColorTexture.texture >= 0)
-        alpha *= sampleTexture(state, material.baseColorTexture, triangle, u, v).a;
+    if (const TextureRef& ref = material.baseColorTexture; ref.texture >= 0)
+        alpha *= filtered(state.scene->textures[size_t(ref.texture)], textureCoordinates(state, ref, triangle, u, v),
+                          texelAlpha);
     return alpha < alphaThreshold(material);
 }
 

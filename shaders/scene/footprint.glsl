@@ -11,8 +11,7 @@ float footprintLevel(GpuTextureRef ref, SurfacePoint s, float area) {
     if (ref.texture == NO_TEXTURE) return 0.0;
     const float density = (ref.texCoord == 0u ? s.uvDensity.x : s.uvDensity.y) *
                           abs(ref.rowU.x * ref.rowV.y - ref.rowU.y * ref.rowV.x);
-    const vec2 size = vec2(textureSize(sceneTextures[nonuniformEXT(ref.texture)], 0));
-    const float texels = density * size.x * size.y * area;
+    const float texels = density * float(ref.size.x) * float(ref.size.y) * area;
     return texels > 1.0 ? 0.5 * log2(texels) : 0.0;
 }
 

@@ -87,8 +87,7 @@ vec2 textureUv(GpuTextureRef ref, vec4 texCoords) {
 // are means over the texture's inside. So the level decreases with the distance from the texture, to 0 where a
 // footprint of 2^level texels is outside.
 float clampedLevel(GpuTextureRef ref, vec2 uv, float level) {
-    const vec2 size = vec2(textureSize(sceneTextures[nonuniformEXT(ref.texture)], 0));
-    const vec2 outside = max(abs(uv - 0.5) - 0.5, 0.0) * size * vec2(ref.wrapU == WRAP_CLAMP, ref.wrapV == WRAP_CLAMP);
+    const vec2 outside = max(abs(uv - 0.5) - 0.5, 0.0) * vec2(ref.size) * vec2(ref.wrapU == WRAP_CLAMP, ref.wrapV == WRAP_CLAMP);
     const float distance_ = max(outside.x, outside.y);
     return distance_ > 0.0 ? log2(max(exp2(level) - 2.0 * distance_, 1.0)) : level;
 }
@@ -127,7 +126,7 @@ vec4 baseColor(GpuMaterial m, SurfacePoint s, float level) {
 float textureAlpha(GpuTextureRef ref, vec4 texCoords) {
     if (ref.texture == NO_TEXTURE) return 1.0;
     const vec2 uv = textureUv(ref, texCoords);
-    const ivec2 size = textureSize(sceneTextures[nonuniformEXT(ref.texture)], 0);
+    const ivec2 size = ivec2(ref.size);
     const Texels x = filteredTexels(uv.x, size.x, ref.wrapU, ref.filter_);
     const Texels y = filteredTexels(uv.y, size.y, ref.wrapV, ref.filter_);
     const ivec2 texelRows = ivec2(y.first, y.second);

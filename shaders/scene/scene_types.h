@@ -14,6 +14,7 @@ struct GpuTextureRef {
     uint wrapU;  // WRAP_*
     uint wrapV;
     uint filter_;  // FILTER_*
+    uvec2 size;    // Texels. Lavapipe's textureSize() calls a function for each texture of a subgroup.
 };
 
 struct GpuMaterial {

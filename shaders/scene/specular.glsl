@@ -27,8 +27,8 @@ Specular makeSpecular(vec3 baseColor, float metallic, float roughness, float spe
                     max(dielectric.r, max(dielectric.g, dielectric.b)), specular);
 }
 
-// The two texels of the G-buffer.
-vec4 specularTexel(Specular s) { return vec4(s.f0, s.roughness); }
+// The two texels of the G-buffer; 0 without a specular lobe.
+vec4 specularTexel(Specular s) { return hasSpecular(s) ? vec4(s.f0, s.roughness) : vec4(0.0); }
 vec4 fresnelTexel(Specular s) { return vec4(s.f90, s.dielectricF0, s.dielectricF90, 0.0); }
 Specular specularOf(vec4 specular, vec4 fresnel) {
     return Specular(specular.rgb, fresnel.r, specular.a, fresnel.g, fresnel.b);

@@ -197,6 +197,24 @@ TEST(GBuffer, SpecularReflectanceFollowsTheMaterial) {
         EXPECT_LT(glm::length(f - glm::vec4(0.8f, 0.2f, 0.8f, 0)), 4e-3f);
 }
 
+TEST(GBuffer, SurfacesWithoutASpecularLobeHaveNoRoughness) {
+    // The second material makes the scene one with lobes, whose texels are stored in each frame
+    for (const float specular : {0.0f, 1.0f}) {
+        SceneBuilder builder("two panes");
+        Material lambert{.metallic = 0, .roughness = 0.25f, .specular = 0}, glossy = lambert;
+        glossy.specular = specular;
+        builder.quad("left", {-2, -1, 0}, {2, 0, 0}, {0, 2, 0}, builder.material(lambert));
+        builder.quad("right", {0, -1, 0}, {2, 0, 0}, {0, 2, 0}, builder.material(glossy));
+        builder.camera({0, 0, 1}, {0, 0, 0}, 40);
+        for (const std::string pass : {"gbuffer", "gbuffer, method: raster"}) {
+            Chain chain(evaluated(builder), graphYaml({pass}), 4, 4);
+            const std::vector<glm::vec4> found = texels(chain, gbuffer(chain).specular);
+            for (size_t i = 0; i < found.size(); ++i)
+                EXPECT_NEAR(found[i].a, i % 4 < 2 || specular == 0 ? 0.0f : 0.25f, 1e-3f) << pass << " " << i;
+        }
+    }
+}
+
 TEST(GBuffer, NoTexelSeesABodyFromInside) {
     // A box glows outwards only; where it is seen at all, it glows, silhouettes included.
     for (const std::string method : {"rays", "raster"}) {

@@ -214,7 +214,8 @@ TEST(EmbreeScene, StreamsAgreeWithSingleRays) {
     EXPECT_GT(hitCount, rays.size() / 20);
 
     // Packets of any size, some rays of which are not to be traced. Rounding differs
-    for (size_t first = 0, count = 1; first + count <= rays.size(); first += count, count = count % 8 + 1) {
+    for (size_t first = 0, count = 1; first + count <= rays.size();
+         first += count, count = count % EmbreeScene::kPacketRays + 1) {
         if (count % 3 == 0) rays[first].tMax = -1.0f;
         const std::span<const Ray> packet = std::span(rays).subspan(first, count);
         std::array<Hit, EmbreeScene::kPacketRays> packetHits;

@@ -18,8 +18,9 @@ struct GBuffer : Resource {
     Image geometricNormal;  ///< RGBA16F: the triangle's normal, facing the camera.
     Image albedo;           ///< RGBA16F: diffuse reflectance.
     Image emission;         ///< RGBA32F: radiance towards the camera, W/(m² sr); the environment's on a miss.
-    Image specular;         ///< RGBA16F: F0, roughness; unpacked by specularOf() of shaders/scene/specular.glsl.
-    Image fresnel;          ///< RGBA8: F90, F0 and F90 of the dielectric layer; likewise.
+    /// RGBA16F: F0, roughness; 0 without a specular lobe. Unpacked by specularOf() of shaders/scene/specular.glsl.
+    Image specular;
+    Image fresnel;  ///< RGBA8: F90, F0 and F90 of the dielectric layer; likewise.
 
     /// For shaders that declare images of these names, and `samples`.
     std::vector<Binding> bindings() const {

@@ -16,8 +16,7 @@ struct FragmentMaterial {
 // Mip level whose texels are as wide as a voxel.
 float footprintLevel(GpuTextureRef ref, vec2 texCoordWidth_) {
     if (ref.texture == NO_TEXTURE) return 0.0;
-    const ivec2 size = textureSize(sceneTextures[nonuniformEXT(ref.texture)], 0);
-    const float texels = abs(ref.rowU.x * ref.rowV.y - ref.rowU.y * ref.rowV.x) * float(size.x) * float(size.y);
+    const float texels = abs(ref.rowU.x * ref.rowV.y - ref.rowU.y * ref.rowV.x) * float(ref.size.x) * float(ref.size.y);
     return max((ref.texCoord == 0u ? texCoordWidth_.x : texCoordWidth_.y) + 0.5 * log2(max(texels, 1.0e-30)), 0.0);
 }
 

@@ -9,6 +9,7 @@
 
 #define LAYERS (SAMPLES > 1 ? 2 : 1)
 
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Floats { float data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Words1 { uint64_t data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Words2 { u64vec2 data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Words3 { u64vec3 data[]; };

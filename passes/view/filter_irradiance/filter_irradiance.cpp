@@ -121,6 +121,7 @@ class FilterIrradiance final : public Pass {
     LargeBuffer means_[2];     ///< mean.glsl, written and read in turn by levels; where rays' variance is known.
     LargeBuffer light_;        ///< surface_light.glsl
     LargeBuffer filtered_[2];  ///< Irradiance, W/m², and number of rays; read and written in turn by levels.
+    LargeBuffer weights_;      ///< Of second surfaces and the first ones around them (level.glsl), of one level.
 };
 
 void FilterIrradiance::plan(PassPlan& plan) {
@@ -144,6 +145,8 @@ void FilterIrradiance::plan(PassPlan& plan) {
     plan.buffer(reflectance_, "reflectance of surfaces", words);
     plan.buffer(light_, "statistics of light", words);
     for (LargeBuffer& level : filtered_) plan.buffer(level, "filtered irradiance", 2 * words);
+    if (samples > 1)
+        plan.buffer(weights_, "weights of second surfaces", 9 * sizeof(float) * plan.frame.width * plan.frame.height);
     plan.buffer(several_, "pixels with several surfaces",
                 (4 + uint64_t(plan.frame.width) * plan.frame.height) * sizeof(uint32_t));
     const bool hasMoments = noisy.blockSize > 0 && !noisy.hasStatistics;
@@ -247,7 +250,7 @@ void FilterIrradiance::record(PassContext& context) {
                          ifUsed({"noiseRatio", noiseRatio_}),
                          {"edgeStoppingScale", edgeStoppingScale()},
                          ifUsed({"ratioLevel", std::min(level, kMeasuredLevels - 1)})},
-                        several_);
+                        several_, weights_.ref());
     }
 
     // Compute the radiance that they reflect
@@ -325,7 +328,7 @@ void FilterIrradiance::widenMeans(PassContext& context, uint32_t level) const {
                  {{"SurfacesRef", surfaces_.ref()},
                   {"SourceRef", means_[(level + 1) % 2].ref()},
                   {"ResultRef", means_[level % 2].ref()}},
-                 several_);
+                 several_, weights_.ref());
 }
 
 glm::uvec2 FilterIrradiance::blocks(PassContext& context) const {

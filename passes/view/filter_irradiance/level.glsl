@@ -9,7 +9,9 @@
 //
 // and then include this file. First surfaces are filtered in strips: an invocation goes down STRIP_ROWS pixels of two
 // columns, all 2^level apart, so that it reads a row's four taps once for six pixels, and computes the weight of two
-// pixels of the strip once for both. Second surfaces, which are few, are taken from a list (LISTED).
+// pixels of the strip once for both. Second surfaces, which are few, are taken from a list (LISTED), before first ones:
+// they store their weights with these. Each first surface goes through the second ones around it in a loop, and devices
+// that compute several pixels at once repeat it as often as the one with most of them does.
 #extension GL_EXT_control_flow_attributes : require
 #include "passes/view/filter_irradiance/strip.h"
 
@@ -27,16 +29,33 @@ void addTapOf(inout Sums sums, Tap center, Tap tap, float kernel_) {
 // A bit for a tap's pixel, if it may have a second surface.
 uint bitIfTwo(Tap tap, int bit) { return LAYERS == 2 && tap.area > 0.0 && tap.area < 1.0 ? 1u << bit : 0u; }
 
+#if SAMPLES > 1
+layout(scalar) readonly buffer WeightsRef { Floats weights; };  // Of second surfaces and first ones (weightIndex()).
+
+// @param pixel of the second surface. tap: of the first one, among the 3 x 3 around it, row by row.
+uint weightIndex(ivec2 pixel, ivec2 pixels, int tap) {
+    return uint(tap * pixels.y + pixel.y) * uint(pixels.x) + uint(pixel.x);
+}
+
 // Adds second surfaces. @param withTwo of the 3 x 3 pixels, row by row, by bitIfTwo().
 void addSecondTaps(inout Sums sums, Tap center, ivec2 pixel, ivec2 pixels, uint withTwo, int level) {
     if (withTwo == 0u) return;
     do {
         const int i = findLSB(withTwo), x = i % 3 - 1, y = i / 3 - 1;
-        const Tap tap = loadTap(elementOf(pixel + (ivec2(x, y) << level), pixels, 1));
-        if (tap.area > 0.0) addTapOf(sums, center, tap, kernel(x, y));  // Elements without a surface have no values.
+        const ivec2 at = pixel + (ivec2(x, y) << level);
+        const Tap tap = loadTap(elementOf(at, pixels, 1));
+#ifdef LISTED
+        const float weight = weightOf(center, tap);
+#else
+        const float weight = weights.data[weightIndex(at, pixels, 8 - i)];
+#endif
+        if (tap.area > 0.0) addTap(sums, center, tap, kernel(x, y), weight);  // Others have no values.
         withTwo &= withTwo - 1u;
     } while (withTwo != 0u);
 }
+#else
+void addSecondTaps(inout Sums sums, Tap center, ivec2 pixel, ivec2 pixels, uint withTwo, int level) {}
+#endif
 
 layout(local_size_x = 64) in;
 
@@ -55,8 +74,11 @@ void filterLevel(ivec2 pixels, int level) {
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x) {
             const Tap tap = tapAt(pixel + (ivec2(x, y) << level), pixels);
-            addTapOf(sums, center, tap, kernel(x, y));
-            withTwo |= bitIfTwo(tap, 3 * (y + 1) + x + 1);
+            const int index = 3 * (y + 1) + x + 1;
+            const float weight = weightOf(center, tap);
+            addTap(sums, center, tap, kernel(x, y), weight);
+            weights.data[weightIndex(pixel, pixels, index)] = weight;
+            withTwo |= bitIfTwo(tap, index);
         }
     addSecondTaps(sums, center, pixel, pixels, withTwo, level);
     store(element, center, sums);

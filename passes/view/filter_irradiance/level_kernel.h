@@ -25,15 +25,15 @@ class LevelKernel {
         second_.compileIf(isUsed && hasSecond);
     }
 
-    /// @param second pixels that may have a second surface (surfaces.comp).
-    void record(PassContext& context, uint32_t level, const Bindings& bindings, const Buffer& second) const {
+    /// @param second pixels that may have a second surface (surfaces.comp). weights: of these and first ones.
+    void record(PassContext& context, uint32_t level, const Bindings& bindings, const Buffer& second,
+                const Buffer& weights) const {
         const glm::uvec2 pixels = context.frame.pixels();
         const glm::uvec2 strip = glm::uvec2(STRIP_COLUMNS, STRIP_ROWS) << level;
         const glm::uvec2 strips = ((pixels + strip - 1u) / strip) << level;
-        context.dispatch(first_, strips, {bindings.all(), {"pixels", pixels}, {"level", level}});
-        if (hasSecond_)
-            dispatchIndirect(context.stream, second_, second, 0,
-                             {bindings.all(), {"pixels", pixels}, {"level", level}, {"indirectList", second}});
+        const Bindings common{bindings.all(), {"pixels", pixels}, {"level", level}, ifUsed({"WeightsRef", weights})};
+        if (hasSecond_) dispatchIndirect(context.stream, second_, second, 0, {common.all(), {"indirectList", second}});
+        context.dispatch(first_, strips, common);
     }
 
  private:

@@ -227,7 +227,8 @@ void GBufferPass::storeFrame(PassContext& context) {
 void GBufferPass::trace(PassContext& context) {
     if (!isCleared_) {
         const GBuffer& g = context[gbuffer_];
-        if (materials_.areLambert) context.stream.clear(g.fresnel, {});
+        if (materials_.areLambert)
+            for (const Image* image : {&g.specular, &g.fresnel}) context.stream.clear(*image, {});
         if (materials_.isDark) context.stream.clear(g.emission, {});
         isCleared_ = true;
     }

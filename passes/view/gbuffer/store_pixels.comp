@@ -75,7 +75,7 @@ void main() {
         isOne = triangleMaterial(hit.triangle) == material &&
                 isOneSurface(firstTriangle.normal, firstPoint, triangle.normal, point);
         const float offset = max(planeOffset(triangle.a, triangle.b, triangle.c, triangle.normal), pointOffset(point));
-        storePoint(texelOf(pixel, t, push.view.width), hit.triangle, at, point, offset);
+        storePoint(texelOf(pixel, t, push.view.width), vec4(point, offset), previousPoint(hit.triangle, at));
     }
     if (!isOne) {
         appendItem(i, TEXELS);
@@ -89,5 +89,5 @@ void main() {
     const vec2 center = planeBarycentrics(firstTriangle, direction, vec2(first.u, first.v));
     const SurfacePoint s = surfacePoint(first.triangle, insetBarycentrics(first.triangle, center));
     const VisibleSurface visible = visibleSurface(pixels, s);
-    for (uint t = 0u; t < TEXELS; ++t) storeSurface(texelOf(pixel, t, push.view.width), visible, true);
+    for (uint t = 0u; t < TEXELS; ++t) storeSurface(texelOf(pixel, t, push.view.width), visible, true, true);
 }

@@ -36,14 +36,21 @@ void main() {
         appendItem(i, 1u);
         return;
     }
+    VisibleSurface visible;
 #else
-    if (hit.triangle == NO_HIT) {
-        storeEnvironment(texel, environmentRadiance(sampleDirection(push.view, uvec2(texel), SAMPLES, push.seed)));
-        return;
-    }
+    VisibleSurface visible =
+        noSurface(environmentRadiance(sampleDirection(push.view, uvec2(texel), SAMPLES, push.seed)));
 #endif
-    const vec2 barycentrics = insetBarycentrics(hit.triangle, vec2(hit.u, hit.v));
-    const SurfacePoint s = surfacePoint(hit.triangle, barycentrics);
-    storePoint(texel, hit.triangle, barycentrics, s.position, s.offset);
-    storeSurface(texel, visibleSurface(push.view, s), false);
+    const bool isHit = hit.triangle != NO_HIT;
+    vec4 point = vec4(0.0), previous_ = vec4(0.0);
+    if (isHit) {
+        const vec2 barycentrics = insetBarycentrics(hit.triangle, vec2(hit.u, hit.v));
+        const SurfacePoint s = surfacePoint(hit.triangle, barycentrics);
+        point = vec4(s.position, s.offset);
+        previous_ = previousPoint(hit.triangle, barycentrics);
+        visible = visibleSurface(push.view, s);
+    }
+    // One store of an image for both: lavapipe calls a function for each
+    storePoint(texel, point, previous_);
+    storeSurface(texel, visible, isHit, false);
 }

@@ -1,5 +1,5 @@
 // Texels of the G-buffer's images, for rays. With LAMBERT no surface has a specular lobe, with DARK nothing emits light:
-// `fresnel` and `emitted` are then 0 everywhere, and stay as they are.
+// `specular` and `fresnel`, or `emitted`, are then 0 everywhere, and stay as they are.
 #ifndef VOXRAY_GBUFFER_STORED_TEXEL_GLSL
 #define VOXRAY_GBUFFER_STORED_TEXEL_GLSL
 
@@ -15,49 +15,47 @@ layout(rgba16f) writeonly uniform image2D albedo;
 #ifndef DARK
 layout(rgba32f) writeonly uniform image2D emitted;
 #endif
-layout(rgba16f) writeonly uniform image2D specular;
 #ifndef LAMBERT
+layout(rgba16f) writeonly uniform image2D specular;
 layout(rgba8) writeonly uniform image2D fresnel;
 #endif
 #ifdef MOTION
 layout(rgba32f) writeonly uniform image2D previous;
 #endif
 
-// @param offset of ray origins, m.
-void storePoint(ivec2 texel, uint triangle, vec2 barycentrics, vec3 point, float offset) {
-    imageStore(position, texel, vec4(point, offset));
+// Position in the previous frame, and mesh instance.
+vec4 previousPoint(uint triangle, vec2 barycentrics) {
 #ifdef MOTION
-    imageStore(previous, texel, vec4(previousPosition(triangle, barycentrics), instanceOf(triangle)));
+    return vec4(previousPosition(triangle, barycentrics), instanceOf(triangle));
+#else
+    return vec4(0.0);
 #endif
 }
 
-void storeLight(ivec2 texel, vec3 emission, vec4 fresnel_) {
-#ifndef DARK
-    imageStore(emitted, texel, vec4(emission, 0.0));
+// @param point m; and offset of ray origins, m.
+void storePoint(ivec2 texel, vec4 point, vec4 previous_) {
+    imageStore(position, texel, point);
+#ifdef MOTION
+    imageStore(previous, texel, previous_);
 #endif
-#ifndef LAMBERT
-    imageStore(fresnel, texel, fresnel_);
-#endif
+}
+
+// What a ray sees that hits no surface.
+VisibleSurface noSurface(vec3 radiance) {
+    return VisibleSurface(vec3(0.0), vec3(0.0), vec3(0.0), radiance, Specular(vec3(0.0), 0.0, 0.0, 0.0, 0.0));
 }
 
 // @param isSingle whether the pixel shows nothing else (GBuffer::normal).
-void storeSurface(ivec2 texel, VisibleSurface s, bool isSingle) {
+void storeSurface(ivec2 texel, VisibleSurface s, bool isHit, bool isSingle) {
     imageStore(normal, texel, vec4(s.normal, isSingle ? 1.0 : 0.0));
     imageStore(geometricNormal, texel, vec4(s.geometricNormal, 0.0));
-    imageStore(albedo, texel, vec4(s.albedo, 1.0));
+    imageStore(albedo, texel, vec4(s.albedo, isHit ? 1.0 : 0.0));
+#ifndef DARK
+    imageStore(emitted, texel, vec4(s.emission, 0.0));
+#endif
+#ifndef LAMBERT
     imageStore(specular, texel, specularTexel(s.specular));
-    storeLight(texel, s.emission, fresnelTexel(s.specular));
-}
-
-void storeEnvironment(ivec2 texel, vec3 radiance) {
-    imageStore(position, texel, vec4(0.0));
-    imageStore(normal, texel, vec4(0.0));
-    imageStore(geometricNormal, texel, vec4(0.0));
-    imageStore(albedo, texel, vec4(0.0));
-    imageStore(specular, texel, vec4(0.0));
-    storeLight(texel, radiance, vec4(0.0));
-#ifdef MOTION
-    imageStore(previous, texel, vec4(0.0));
+    imageStore(fresnel, texel, fresnelTexel(s.specular));
 #endif
 }
 
