@@ -1,5 +1,6 @@
 // Adds the direct light that the surfel at each hit reflects to its gather ray, and generates the next ray of its path.
-// A mirror's vertex reflects no light of shadow rays.
+// A mirror's vertex reflects no light of shadow rays. With ROULETTE survivalProbability() of their reflectance decides
+// which other paths continue; who reads the rays divides by it.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/octahedral.glsl"
 #include "passes/surfels/path_ray.glsl"
@@ -27,5 +28,9 @@ void main() {
     light.data[s.parent].rgb += s.reflectance * direct.data[i].rgb;
 
     const uvec2 continuation = continuations.data[i];
-    rays.data[i] = continuation.x == 0u ? kNoRay : pathRay(s, fromOctahedral(continuation.y), push.seed);
+    bool isContinued = continuation.x != 0u;
+#ifdef ROULETTE
+    isContinued = isContinued && sobol2(s.id, hashCombine(push.seed, 1u)).x < survivalProbability(s.reflectance);
+#endif
+    rays.data[i] = isContinued ? pathRay(s, fromOctahedral(continuation.y), push.seed) : kNoRay;
 }

@@ -311,6 +311,21 @@ TEST(FinalGather, RaysGoOnWhereNoLightWasInjected) {
     EXPECT_NEAR(ratio("0.001"), 1.0, 0.1);
 }
 
+TEST(FinalGather, AlbedoDecidesHowManyPathsGoOn) {
+    // Every hit of a closed room is near, and half of the paths that come to a vertex go on from it. The one, 0.5 and
+    // 0.25 vertices of a gather ray's path have a shadow ray each, and one that goes on or is left out, which counts
+    // alike. No light is lost.
+    const ImageF& reference = pathTraced("white_room", "{albedo: 0.5}", 256, 4);
+    Chain chain("white_room", "{albedo: 0.5}",
+                gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 0", "rays_per_block: 64",
+                            {"gather_rays, near_field_cells: 64"}));
+    const double ratio = mean(chain.image("indirect")) / mean(reference);
+    const double rays = double(chain.frameSamples.back().rays) / (32 * 32 * 64);
+    std::printf("rays of a gather ray: %.4f, light over the reference: %.4f\n", rays, ratio);
+    EXPECT_NEAR(rays, 2 * 1.75, 0.02);
+    EXPECT_NEAR(ratio, 1, 0.02);
+}
+
 TEST(FinalGather, ReportsHowManyHitsAreOnUnlitFaces) {
     // In a furnace every lit face reflects 0.6, of which pixels reflect 0.6, and what reads an unlit one
     // shows nothing: the image lacks just the part that is reported.

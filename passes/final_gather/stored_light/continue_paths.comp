@@ -16,8 +16,12 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.rays_ || rays.data[i].tMax < 0.0) return;
     const Surfel s = origins.data[i];
-    if (s.voxel == VOXRAY_MIRROR_VERTEX)
-        light.data[s.parent].rgb += PI * s.reflectance * emittedTowardsMirror(hits.data[i], rays.data[i]);
+    atomicAdd(counts.traced, 1u);
+    vec3 throughput = s.reflectance / max(survivalProbability(s.reflectance), 1e-6);  // Of Russian roulette.
+    if (s.voxel == VOXRAY_MIRROR_VERTEX) {
+        throughput = s.reflectance;
+        light.data[s.parent].rgb += PI * throughput * emittedTowardsMirror(hits.data[i], rays.data[i]);
+    }
     if (hits.data[i].triangle == NO_HIT) return;
-    shadeHit(s.parent, hits.data[i], rays.data[i].origin, s.reflectance, s.id, push.nearField);
+    shadeHit(s.parent, hits.data[i], rays.data[i].origin, throughput, s.id, push.nearField);
 }

@@ -7,14 +7,14 @@ namespace {
 
 /// As in shade_hit.glsl.
 struct HitCounts {
-    uint32_t surfels, continued, unlit;
+    uint32_t surfels, continued, unlit, traced;
 };
 
 }  // namespace
 
 ContinuedPaths::ContinuedPaths(ProgramOwner& owner, const Defines& stored)
     : owner_(owner),
-      reflect_(owner, "passes/surfels/reflect_at_hits.comp"),
+      reflect_(owner, "passes/surfels/reflect_at_hits.comp", {{"ROULETTE", "1"}}),
       continue_(owner, "continue_paths.comp", stored) {}
 
 void ContinuedPaths::plan(PassPlan& plan, const StoredLightParams& params, bool measureDirect, uint32_t rays) {
@@ -51,6 +51,7 @@ ContinuedPaths::Counts ContinuedPaths::trace(PassContext& context, const std::ve
     for (uint32_t step = 0; step <= maxSteps(); ++step) {
         const HitCounts hits = stream.readAs<HitCounts>(counts_, 1)[0];
         total.unlit += hits.unlit;
+        total.rays += hits.traced;
         if (hits.surfels == 0) break;
 
         // Measure direct light at the surfels, and generate continuation rays
@@ -70,7 +71,6 @@ ContinuedPaths::Counts ContinuedPaths::trace(PassContext& context, const std::ve
 
         // Trace these rays and shade their hits
         context.tracer.closestHit(stream, rays_, hits_, hits.surfels);
-        total.rays += hits.continued;
         stream.fill(counts_, 0);
         const bool isLast = step + 1 == maxSteps();
         context.dispatch(continue_, hits.surfels,

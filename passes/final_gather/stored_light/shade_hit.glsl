@@ -15,6 +15,7 @@ buffer Counts {
     uint surfels;
     uint continued;  // Of them, those whose paths continue.
     uint unlit;  // Hits beyond the near field where no light is stored.
+    uint traced;  // Rays of paths that continued before.
 } counts;
 
 #define ANY_DISTANCE 1.0e30  // m
