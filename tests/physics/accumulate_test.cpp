@@ -294,5 +294,22 @@ TEST(Accumulate, LowersTheNoiseOfEveryGather) {
         }
 }
 
+TEST(Accumulate, HistoryOutlastsRaysThatAreBlack) {
+    // The lamp goes off: what the filter is given is seven eighths of the mean of before, and rays that are all black
+    for (const std::string estimator : {"mean", "regression"}) {
+        Chain chain("white_room", "{}",
+                    graphYaml({"gbuffer", "path_trace, spp: 4, bounces: 1, light: indirect", "accumulate, history: 8",
+                               "filter_irradiance, estimator: " + estimator, "direct_shadow_rays", "composite"}),
+                    32, 32);
+        chain.runFrames(8);
+        const double before = mean(chain.image("indirect"));
+        chain.update([](SceneState& state) {
+            state.lights[0].intensity = glm::vec3(0.0f);
+            return std::vector<Box>{};
+        });
+        EXPECT_NEAR(mean(chain.image("indirect")) / before, 7.0 / 8, 0.02) << estimator;
+    }
+}
+
 }  // namespace
 }  // namespace voxray::test

@@ -48,7 +48,8 @@ float keptFraction(ivec2 pixel, float light, float rays) {
 #ifdef SIGNED
     return max(clamp(light, mean_ - deviation, mean_ + deviation) / light, 0.0);
 #else
-    return min(mean_ * (1.0 + deviation) / light, 1.0);
+    // Of rays that are black nothing is known, and what is taken away could not be given back
+    return mean_ > 0.0 ? min(mean_ * (1.0 + deviation) / light, 1.0) : 1.0;
 #endif
 }
 
