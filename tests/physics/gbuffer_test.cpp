@@ -201,7 +201,11 @@ TEST(GBuffer, SurfacesWithoutASpecularLobeHaveNoRoughness) {
     // The second material makes the scene one with lobes, whose texels are stored in each frame
     for (const float specular : {0.0f, 1.0f}) {
         SceneBuilder builder("two panes");
-        Material lambert{.metallic = 0, .roughness = 0.25f, .specular = 0}, glossy = lambert;
+        Material lambert;
+        lambert.metallic = 0;
+        lambert.roughness = 0.25f;
+        lambert.specular = 0;
+        Material glossy = lambert;
         glossy.specular = specular;
         builder.quad("left", {-2, -1, 0}, {2, 0, 0}, {0, 2, 0}, builder.material(lambert));
         builder.quad("right", {0, -1, 0}, {2, 0, 0}, {0, 2, 0}, builder.material(glossy));
