@@ -210,8 +210,9 @@ TEST(GBuffer, SurfacesWithoutASpecularLobeHaveNoRoughness) {
         builder.quad("left", {-2, -1, 0}, {2, 0, 0}, {0, 2, 0}, builder.material(lambert));
         builder.quad("right", {0, -1, 0}, {2, 0, 0}, {0, 2, 0}, builder.material(glossy));
         builder.camera({0, 0, 1}, {0, 0, 0}, 40);
+        const auto state = evaluated(builder);
         for (const std::string pass : {"gbuffer", "gbuffer, method: raster"}) {
-            Chain chain(evaluated(builder), graphYaml({pass}), 4, 4);
+            Chain chain(state, graphYaml({pass}), 4, 4);
             const std::vector<glm::vec4> found = texels(chain, gbuffer(chain).specular);
             for (size_t i = 0; i < found.size(); ++i)
                 EXPECT_NEAR(found[i].a, i % 4 < 2 || specular == 0 ? 0.0f : 0.25f, 1e-3f) << pass << " " << i;
