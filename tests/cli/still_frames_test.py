@@ -40,7 +40,7 @@ METHODS = {"lookup", "cones dense", "cones octree", "surfels", "virtual lights",
 # hits and of those of up to three steps, and of mirrors 4 bytes of the rays and 24 of each bounce. Paths need no count to go on: the rays
 # of the frame are read when it is done, and then all memory is freed that is there while they are traced: 2 waits. (A variant's last pass
 # has the id of the list that it stands in.)
-COUNTS_READ = {("gather rays", "gather_rays"): (48, 4), ("mirrors", "indirect"): (28, 2), ("paths", "path_trace_device"): (8, 2)}
+COUNTS_READ = {("gather rays", "gather_rays"): (48, 3), ("mirrors", "indirect"): (28, 2), ("paths", "path_trace_device"): (8, 2)}
 
 
 class StillFrames(CommandTest):
