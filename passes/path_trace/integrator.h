@@ -37,6 +37,9 @@ class Integrator {
     Integrator(const SceneState& state, const EmbreeScene& tracer, uint32_t bounces, Strategy strategy,
                PathLight light = PathLight::All, ExpectedRays rays = ExpectedRays::Many);
 
+    /// Takes over lights that have changed while surfaces and materials are the same. @param state as before.
+    void updateLights(const SceneState& state) { lights_ = LightTable(state, surfaces_); }
+
     /// Traces up to kPacket paths along `cameraRays` (unit directions) that are close together: their first
     /// rays are traced as packets. The caller uses pair 0 of the samplers.
     static constexpr size_t kPacket = EmbreeScene::kPacketRays;

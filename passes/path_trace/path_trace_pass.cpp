@@ -61,7 +61,12 @@ void PathTracePass::record(PassContext& context) {
     context.stream.finish();
     if (frame.changedRegions && !frame.changedRegions->empty()) embree_->update();
     if (!integrator_ || sceneVersion_ != frame.sceneVersion) {
-        integrator_.emplace(*frame.scene, *embree_, options_.bounces, path_trace::Strategy::Mis, options_.light);
+        const bool haveSurfacesChanged = !integrator_ || sceneVersion_ + 1 != frame.sceneVersion ||
+                                         !frame.changedRegions || !frame.changedRegions->empty();
+        if (haveSurfacesChanged)
+            integrator_.emplace(*frame.scene, *embree_, options_.bounces, path_trace::Strategy::Mis, options_.light);
+        else
+            integrator_->updateLights(*frame.scene);
         sceneVersion_ = frame.sceneVersion;
     }
     PathTraceResult result = path_trace::render(*integrator_, frame.camera, options_, frame.progress);

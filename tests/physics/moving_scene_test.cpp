@@ -53,6 +53,19 @@ TEST(MovingScene, PathTracerFollows) {
     EXPECT_TRUE(sameBits(moving->image("final").data, chainAt(scene, 0.7, graph)->image("final").data));
 }
 
+TEST(MovingScene, PathTracerFollowsLightsAlone) {
+    const std::string graph = graphYaml({"path_trace, spp: 4, bounces: 1"});
+    const auto scene = builtinScene("cornell", "{lights: point}");
+    const auto there = evaluated(scene, 0, Playback::Looping);
+    moveLight(*there);
+    const auto moved = chainAt(scene, 0, graph);
+    const ImageF before = moved->image("final");
+    moved->update(moveLight);
+    const ImageF image = moved->image("final");
+    EXPECT_TRUE(sameBits(image.data, Chain(there, graph, 16, 16).image("final").data));
+    EXPECT_FALSE(sameBits(image.data, before.data));
+}
+
 TEST(MovingScene, LightsMoveWithoutSurfaces) {
     const auto scene = builtinScene("cornell", "{lights: point}");
     const auto there = evaluated(scene, 0, Playback::Looping);
