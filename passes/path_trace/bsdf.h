@@ -18,7 +18,7 @@ struct BsdfValue {
 
 struct BsdfSample {
     glm::vec3 direction{0.0f};
-    glm::vec3 weight{0.0f};  ///< f cos / pdf; 0 for a direction below the surface.
+    glm::vec3 weight{0.0f};  ///< f cos / pdf; 0 for a direction below the surface or along it.
     float pdf = 0.0f;        ///< Per steradian; 0 for a mirror.
     bool isMirror = false;
 };
@@ -74,7 +74,8 @@ struct Bsdf {
         const Frame frame(n);
         if (!hasSpecular()) {
             const glm::vec3 local = cosineHemisphere(u.x, u.y);
-            return {frame.toWorld(local), diffuse, local.z * kInvPi, false};
+            // On the rim of the disk z is rounded to 0
+            return {frame.toWorld(local), local.z > 0.0f ? diffuse : glm::vec3(0.0f), local.z * kInvPi, false};
         }
         return sampleLayers(out, frame, u, uLobe);
     }

@@ -37,6 +37,21 @@ double integrate(const F& f, int cosines = 800, int angles = 400) {
     return sum;
 }
 
+TEST(Reflection, DirectionsAlongTheSurfaceHaveNoWeight) {
+    // On the rim of the disk that is mapped to the hemisphere the cosine is rounded to 0, and so is the density: a path
+    // that went on would weigh what it hits by 0 / 0
+    const Bsdf lambert = Bsdf::make({0.8f, 0.5f, 0.2f}, 0, 1, 0, glm::vec3(1), 1.5f);
+    constexpr int kPoints = 4096;
+    int along = 0;
+    for (int i = 0; i < kPoints; ++i) {
+        const BsdfSample sample = lambert.sample(kNormal, kNormal, {0.0f, float(i) / kPoints}, 0);
+        if (sample.pdf > 0) continue;
+        ++along;
+        EXPECT_EQ(sample.weight, glm::vec3(0));
+    }
+    EXPECT_GT(along, 0);
+}
+
 TEST(Reflection, SpecularZeroIsExactlyLambert) {
     const Bsdf b = Bsdf::make({0.8f, 0.5f, 0.2f}, 0, 0.3f, 0, glm::vec3(1), 1.5f);
     for (const double cosine : {0.1, 0.5, 1.0}) {

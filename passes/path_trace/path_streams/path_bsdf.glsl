@@ -18,7 +18,7 @@ struct BsdfValue {
 
 struct BsdfSample {
     vec3 direction;
-    vec3 weight;  // f cos / pdf; 0 for a direction below the surface.
+    vec3 weight;  // f cos / pdf; 0 for a direction below the surface or along it.
     float pdf;    // 1/sr; DELTA_PDF for a mirror.
 };
 
@@ -91,7 +91,8 @@ BsdfSample bsdfSample(Bsdf b, vec3 out_, vec3 n, vec2 u, float uLobe) {
     const mat3 toWorld = mat3(tangent, bitangent, n);
     if (!hasSpecular(b.specular)) {
         const vec3 local = cosineHemisphere(u);
-        return BsdfSample(toWorld * local, b.diffuse, local.z / PI);
+        // On the rim of the disk z is rounded to 0
+        return BsdfSample(toWorld * local, local.z > 0.0 ? b.diffuse : vec3(0.0), local.z / PI);
     }
     BsdfSample none = BsdfSample(n, vec3(0.0), 0.0);
     const vec3 local = vec3(dot(out_, tangent), dot(out_, bitangent), max(dot(out_, n), 1e-5));
