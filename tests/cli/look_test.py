@@ -265,23 +265,27 @@ class Server(Look):
         self.assertEqual([one["id"] for one in answer["passes"] if one["reused"]], [])
         self.assertIn("one variant", self.image(side=1, config={**first["config"], "sweep": {"seed": [1, 2]}})[0]["error"])
 
+    def begin(self, request):
+        """Asks for an image, and does not wait for it."""
+        connection = http.client.HTTPConnection("127.0.0.1", int(self.port))
+        self.addCleanup(connection.close)
+        connection.request("POST", f"/{self.token}/image", json.dumps(request))
+        return connection
+
+    def end(self, connection):
+        response = connection.getresponse()
+        self.assertEqual(response.status, 200)
+        return json.loads(response.read().partition(b"\n")[0])
+
     def test_sides_do_not_drop_one_another(self):
         for side in (0, 1):
             self.image(side=side, variant="resolution-8")
-        connections = []
-        slow = {"page": "a", "side": 1, "changes": [{"path": "inject.rays_per_light", "value": 1 << 20}]}
-        for request in (slow, {"page": "a", "shrink": 4}, {"page": "a"}):
-            connection = http.client.HTTPConnection("127.0.0.1", int(self.port))
-            self.addCleanup(connection.close)
-            connection.request("POST", f"/{self.token}/image", json.dumps(request))
-            connections.append(connection)
-            time.sleep(0.3)
-        answers = []
-        for connection in connections:
-            response = connection.getresponse()
-            self.assertEqual(response.status, 200)
-            answers.append(json.loads(response.read().partition(b"\n")[0]))
-        self.assertEqual([answer["width"] for answer in answers], [64, 16, 64])
+        slow = self.begin({"page": "a", "side": 1, "changes": [{"path": "inject.rays_per_light", "value": 1 << 20}]})
+        time.sleep(0.3)
+        # One after the other: the second would take the place of the first
+        answers = [self.end(self.begin(request)) for request in ({"page": "a", "shrink": 4}, {"page": "a"})]
+        answers.append(self.end(slow))
+        self.assertEqual([answer["width"] for answer in answers], [16, 64, 64])
 
     def test_ends_with_an_interrupt(self):
         self.image()
