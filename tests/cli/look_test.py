@@ -219,13 +219,9 @@ class Server(Look):
 
     def test_a_newer_request_takes_the_place_of_an_older_one(self):
         self.image()
-        slow = json.dumps({"changes": [{"path": "inject.rays_per_light", "value": 1 << 22}]})
         connections = []
-        for body in (slow, "{}", "{}"):
-            connection = http.client.HTTPConnection("127.0.0.1", int(self.port))
-            self.addCleanup(connection.close)
-            connection.request("POST", f"/{self.token}/image", body)
-            connections.append(connection)
+        for request in ({"changes": [{"path": "inject.rays_per_light", "value": 1 << 22}]}, {}, {}):
+            connections.append(self.begin(request))
             time.sleep(0.3)
         last, first = connections[2], connections[0]
         self.assertEqual(first.getresponse().status, 204)
