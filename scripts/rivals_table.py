@@ -6,7 +6,8 @@ rivals_table.py DIR... [--best]: for each scene and number of samples a pixel, t
 paths, filter) and its errors of indirect light; then that time over the time in which voxels that are looked up, gather rays
 into voxels, or gather rays into a radiance cache reach as small an nRMSE / relMSE: with light and geometry that stand still
 (frames alone), with light that is new in each frame (what brings light counts, too), and with geometry that is new, too (all
-that is built counts). Faces that gather rays hit are lit in each frame. Of many runs of a config, whose results are the same,
+that is built counts). Faces that gather rays hit are lit in each frame. Where surfaces move in the run itself, updates of the
+scene and of what a variant reads are rows of the frame. Of many runs of a config, whose results are the same,
 the least time of each pass counts, since a machine's speed drifts while a run lasts.
 "rays alone" takes the G-buffer and the filter, which both sides share, off both sides: what the column before would come to
 if these cost nothing. For virtual lights what samples and selects them counts. Of a method's
@@ -68,8 +69,15 @@ def variants(*folders):
     return scenes
 
 
+def unread(passes):
+    """Voxels of the graph that a variant has no use for: paths read none, variants with coarse ones read these alone."""
+    names = {p["pass"] for p in passes}
+    return {"voxelize"} if names & {"paths", "coarse"} else set()
+
+
 def time_of(passes, counts_build, left_out):
     """Milliseconds a frame."""
+    left_out = left_out | unread(passes)
     return sum(float(p["ms_median"]) for p in passes
                if p["pass"] not in left_out and (p["phase"] == "frame" or counts_build(p["pass"])))
 

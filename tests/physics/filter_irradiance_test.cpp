@@ -60,6 +60,15 @@ TEST_P(FilterEstimator, KeepsTheMeanOfNoise) {
     EXPECT_LT(std::sqrt(squares / double(noisy.data.size())), 0.2 * sigma);
 }
 
+TEST_P(FilterEstimator, FiltersLightOfEarlierFramesWhereThisFramesRaysAreBlack) {
+    // After accumulate_irradiance texels hold light of frames of which the moments know nothing. The bound is that of
+    // KeepsTheMeanOfNoise
+    const ImageF noisy = filterKnown("noise: 1, moments: true, black: true", with("levels: 4"), "white_room");
+    double squares = 0;
+    for (const float value : noisy.data) squares += std::pow(value / mean(noisy) - 1, 2);
+    EXPECT_LT(std::sqrt(squares / double(noisy.data.size())), 0.2 / std::sqrt(3.0));
+}
+
 TEST_P(FilterEstimator, LeavesWellKnownIrradianceAlone) {
     const ImageF noisy = filterKnown("noise: 1, rays: 1e9", with("levels: 1, edge_stopping_scale: 100"), "white_room");
     const ImageF filtered = filterKnown("noise: 1, rays: 1e9", with("levels: 4"), "white_room");

@@ -23,6 +23,7 @@ class KnownIrradiance final : public Pass {
         float firefly = 1.0f;
         float offset = 0.0f;
         bool moments = false;
+        bool black = false;
         bool stratified = false;
         static constexpr auto schema() {
             return std::tuple{field("noise", &Params::noise, "Largest deviation over the mean.", 0.0f, 1.0f),
@@ -35,6 +36,7 @@ class KnownIrradiance final : public Pass {
                               field("firefly", &Params::firefly, "Factor of the texel in the middle.", 0.0f, 1e9f),
                               field("offset", &Params::offset, "Added to all light, W/m².", -1e9f, 1e9f),
                               field("moments", &Params::moments, "Whether the filter is told the moments of rays."),
+                              field("black", &Params::black, "Whether moments are of rays that bring nothing."),
                               field("stratified", &Params::stratified, "Whether rays are noisy, but not their mean.")};
         }
     };
@@ -69,7 +71,9 @@ class KnownIrradiance final : public Pass {
                 light += params_.offset;
                 const float texel = params_.stratified ? mean + params_.offset : light;
                 values[size_t(y) * texels.x + x] = glm::vec4(glm::vec3(texel), params_.rays);
-                if (params_.moments) add(moments[size_t(y / 4) * noisy.blocks(texels).x + x / 4], light, params_.rays);
+                if (params_.moments)
+                    add(moments[size_t(y / 4) * noisy.blocks(texels).x + x / 4], params_.black ? 0.0f : light,
+                        params_.rays);
             }
         context.stream.upload(image, std::as_bytes(std::span(values)));
         if (params_.moments) context.stream.upload(noisy.moments, moments);

@@ -13,6 +13,9 @@
 // while rays are summed. Changes of opposite signs cancel. With regression, the part of the net change that exceeds its
 // noise is added (netGradient).
 //
+// Rays that all bring nothing tell neither; their variance is taken to be the squared mean: texels may have light of
+// earlier frames.
+//
 // With SIGNED the mean may be near 0, so that nothing is relative to it: the bound is that of |grad E|, the variance
 // that of a ray.
 #include "shaders/filter/ray_moments.h"
@@ -76,6 +79,8 @@ void main() {
         found.gradient += NET_WEIGHT * netGradient(sum, mean, deviation);
 #endif
         found.variance = max(sum.squared / (sum.luminance * mean) - 1.0, 0.0);
+    } else if (sum.rays > 0.0) {
+        found.variance = 1.0;
     }
 #endif
     const int i = block.y * int(push.blocks.x) + block.x;

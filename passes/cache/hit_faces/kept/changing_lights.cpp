@@ -62,7 +62,7 @@ LightsOfPoints ChangingLights::toMeasure(const PointBatch& batch, const SceneSta
     return lights;
 }
 
-void ChangingLights::agePoints(PassContext& context, const PointBatch& batch, uint32_t points,
+void ChangingLights::agePoints(PassContext& context, const PointBatch& batch, uint32_t faces, uint32_t pointsPerFace,
                                const std::vector<Binding>& ofPoints) {
     const std::vector<gpu::GpuLight>& now = context.scene.uploadedLights;
     if (now.size() != lights_.size()) throw Error("light that is kept: the number of lights has changed");
@@ -71,7 +71,7 @@ void ChangingLights::agePoints(PassContext& context, const PointBatch& batch, ui
         if (std::memcmp(&now[i], &lights_[i], sizeof(gpu::GpuLight)) != 0) changed.push_back(i);
     for (const uint32_t light : changed) hasChanged_[light] = true;
     const std::vector<gpu::GpuLight> before = std::exchange(lights_, now);
-    if (changed.empty() || points == 0) return;
+    if (changed.empty() || faces == 0) return;
     const Buffer lightsBefore(context.device, "lights before", now.size() * sizeof(gpu::GpuLight));
     const Buffer changedLights(context.device, "changed lights", changed.size() * sizeof(uint32_t));
     context.stream.upload(lightsBefore, before);
@@ -80,12 +80,13 @@ void ChangingLights::agePoints(PassContext& context, const PointBatch& batch, ui
     const auto traced = shadowRaySources(batch.sources, scene);
     const bool sharesRays =
         std::ranges::any_of(traced, [](const LightSource& source) { return source.kind == LightSource::Tree; });
-    context.dispatch(agePoints_, points,
+    context.dispatch(agePoints_, faces,
                      {context.scene,
                       {"lightsBefore", lightsBefore},
                       {"changedLights", changedLights},
                       ofPoints,
-                      {"points", points},
+                      {"faces", faces},
+                      {"pointsPerFace", pointsPerFace},
                       {"words", hiddenWords()},
                       {"changed", uint32_t(changed.size())},
                       {"isSure", !sharesRays && !dimsLight(scene)}});

@@ -32,7 +32,7 @@ class ChangingLights {
     void clear(const PassContext& context);
     /// Predicts the direct light of points by the lights that have changed since the frame before, and how far off that
     /// may be. @param ofPoints their places, hidden lights and direct light.
-    void agePoints(PassContext& context, const PointBatch& batch, uint32_t points,
+    void agePoints(PassContext& context, const PointBatch& batch, uint32_t faces, uint32_t pointsPerFace,
                    const std::vector<Binding>& ofPoints);
     /// What a point's light is measured by in this frame.
     LightsOfPoints toMeasure(const PointBatch& batch, const SceneState& scene) const;

@@ -39,7 +39,7 @@ void KeptFaces::update(PassContext& context, const Store& store, HitFaceLight& l
                        const PointBatch& batch, const std::vector<FaceHits>& hits, const Buffer& lost) {
     Update update{context, store, light, newFaces, batch, lost, randomSeed(context.frame, context.frameIndex), {}};
     ++frame_;
-    lights_.agePoints(context, batch, faces_ * params_.pointsPerFace,
+    lights_.agePoints(context, batch, faces_, params_.pointsPerFace,
                       {{"pointPlaces", pointPlaces_}, {"hiddenLights", hiddenLights_}, {"pointDirect", pointDirect_}});
     update.lights = lights_.toMeasure(batch, *context.frame.scene);
     addFaces(update, hits, true);
