@@ -47,6 +47,12 @@ Integrator::Integrator(const SceneState& state, const EmbreeScene& tracer, uint3
       strategy_(strategy),
       light_(light) {}
 
+void Integrator::updateMoving(const SceneState& state) {
+    surfaces_.updateMoving();
+    if (panes_) panes_ = std::make_unique<const Panes>(*state.panes);
+    updateLights(state);
+}
+
 glm::vec3 Integrator::transmittance(Ray ray) const {
     glm::vec3 product(1.0f);
     for (uint32_t pane = 0; panes_ && pane < kMaxPanes; ++pane) {

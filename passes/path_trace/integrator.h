@@ -39,6 +39,8 @@ class Integrator {
 
     /// Takes over lights that have changed while surfaces and materials are the same. @param state as before.
     void updateLights(const SceneState& state) { lights_ = LightTable(state, surfaces_); }
+    /// Takes over surfaces that advance() has moved, and lights. @param state as before.
+    void updateMoving(const SceneState& state);
 
     /// Traces up to kPacket paths along `cameraRays` (unit directions) that are close together: their first
     /// rays are traced as packets. The caller uses pair 0 of the samplers.

@@ -61,12 +61,13 @@ void PathTracePass::record(PassContext& context) {
     context.stream.finish();
     if (frame.changedRegions && !frame.changedRegions->empty()) embree_->update();
     if (!integrator_ || sceneVersion_ != frame.sceneVersion) {
-        const bool haveSurfacesChanged = !integrator_ || sceneVersion_ + 1 != frame.sceneVersion ||
-                                         !frame.changedRegions || !frame.changedRegions->empty();
-        if (haveSurfacesChanged)
+        const bool isNew = !integrator_ || sceneVersion_ + 1 != frame.sceneVersion || !frame.changedRegions;
+        if (isNew)
             integrator_.emplace(*frame.scene, *embree_, options_.bounces, path_trace::Strategy::Mis, options_.light);
-        else
+        else if (frame.changedRegions->empty())
             integrator_->updateLights(*frame.scene);
+        else
+            integrator_->updateMoving(*frame.scene);
         sceneVersion_ = frame.sceneVersion;
     }
     PathTraceResult result = path_trace::render(*integrator_, frame.camera, options_, frame.progress);

@@ -41,6 +41,13 @@ SurfaceTable::SurfaceTable(const SceneState& state, ExpectedRays rays) : state_(
     triangles_ = std::move(triangles);
 }
 
+void SurfaceTable::updateMoving() {
+    if (triangles_.empty()) return;
+    for (const InstanceRange& range : movingInstanceRanges(state_->geometry))
+        for (uint32_t i = 0; i < range.triangleCount; ++i)
+            triangles_[range.firstTriangle + i] = makeTriangle(range.firstTriangle + i);
+}
+
 SurfaceTriangle SurfaceTable::makeTriangle(uint32_t i) const {
     const Geometry& geometry = state_->geometry;
     const glm::uvec3 corners = geometry.triangles[i];

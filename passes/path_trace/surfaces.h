@@ -53,6 +53,8 @@ class SurfaceTable {
 
     SurfaceTriangle triangle(uint32_t i) const { return triangles_.empty() ? makeTriangle(i) : triangles_[i]; }
     size_t triangleCount() const { return state_->geometry.triangles.size(); }
+    /// Takes over triangles that have moved, which then are of no patch of a LightTable. Not thread-safe.
+    void updateMoving();
     /// Assigns a triangle to a patch of LightTable. Not thread-safe.
     void setLight(uint32_t triangle, uint32_t light);
 

@@ -53,6 +53,19 @@ TEST(MovingScene, PathTracerFollows) {
     EXPECT_TRUE(sameBits(moving->image("final").data, chainAt(scene, 0.7, graph)->image("final").data));
 }
 
+TEST(MovingScene, PathTracerFollowsALampThatMoves) {
+    // The ball shines, as the ceiling's lamp does, which stays: patches of both are numbered anew
+    const std::string graph = graphYaml({"path_trace, spp: 4, bounces: 1"});
+    const auto scene = builtinScene("cornell", "{lights: area}");
+    addMovingSpheres(*scene, {.radius = 0.2f, .center = {0, 1.3f, 0.2f}, .swing = {0.6f, 0, 0}});
+    scene->materials.back().emission = glm::vec3(2.0f);
+    const auto moving = chainAt(scene, 0, graph);
+    for (const double time : {0.7, 3.1}) {
+        moving->goTo(time);
+        EXPECT_TRUE(sameBits(moving->image("final").data, chainAt(scene, time, graph)->image("final").data)) << time;
+    }
+}
+
 TEST(MovingScene, PathTracerFollowsLightsAlone) {
     const std::string graph = graphYaml({"path_trace, spp: 4, bounces: 1"});
     const auto scene = builtinScene("cornell", "{lights: point}");
