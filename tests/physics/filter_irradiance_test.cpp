@@ -61,7 +61,7 @@ TEST_P(FilterEstimator, KeepsTheMeanOfNoise) {
 }
 
 TEST_P(FilterEstimator, FiltersLightOfEarlierFramesWhereThisFramesRaysAreBlack) {
-    // After accumulate_irradiance texels hold light of frames of which the moments know nothing. The bound is that of
+    // After `accumulate` texels hold light of frames of which the moments know nothing. The bound is that of
     // KeepsTheMeanOfNoise
     const ImageF noisy = filterKnown("noise: 1, moments: true, black: true", with("levels: 4"), "white_room");
     double squares = 0;

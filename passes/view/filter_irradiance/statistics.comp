@@ -13,8 +13,8 @@
 // while rays are summed. Changes of opposite signs cancel. With regression, the part of the net change that exceeds its
 // noise is added (netGradient).
 //
-// Rays that all bring nothing tell neither; their variance is taken to be the squared mean: texels may have light of
-// earlier frames.
+// Where all rays are black, the variance is taken to be the squared mean, as light.comp does without statistics: texels
+// may have light of earlier frames (`accumulate`), which a variance of 0 would leave unfiltered.
 //
 // With SIGNED the mean may be near 0, so that nothing is relative to it: the bound is that of |grad E|, the variance
 // that of a ray.
