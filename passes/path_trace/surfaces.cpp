@@ -44,8 +44,10 @@ SurfaceTable::SurfaceTable(const SceneState& state, ExpectedRays rays) : state_(
 void SurfaceTable::updateMoving() {
     if (triangles_.empty()) return;
     for (const InstanceRange& range : movingInstanceRanges(state_->geometry))
-        for (uint32_t i = 0; i < range.triangleCount; ++i)
-            triangles_[range.firstTriangle + i] = makeTriangle(range.firstTriangle + i);
+        parallelRanges(range.triangleCount, 4096, [&](size_t begin, size_t end) {
+            for (size_t i = range.firstTriangle + begin; i < range.firstTriangle + end; ++i)
+                triangles_[i] = makeTriangle(uint32_t(i));
+        });
 }
 
 SurfaceTriangle SurfaceTable::makeTriangle(uint32_t i) const {
